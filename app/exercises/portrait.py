@@ -29,7 +29,7 @@ from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.imaging.window import PRESETS
 
-PIXELS: Final = 220
+PIXELS: Final = 340
 """Pixels along the longest side of the patient."""
 
 AIR_GREY: Final = 12
@@ -39,7 +39,7 @@ COARSE: Final = (100, 192)
 """Slices and rows of a phantom that is made for its picture alone: 1 in 20 of the whole."""
 
 _MARGIN_MM: Final = 6.0
-_VERSION: Final = 1
+_VERSION: Final = 2
 
 ACROSS: Final = {"axial": (0, 1), "coronal": (0, 2), "sagittal": (1, 2)}
 """Slice -> LPS axes that run to its right and, x and y downwards but z upwards, down it."""

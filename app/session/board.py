@@ -10,7 +10,7 @@ from __future__ import annotations
 import datetime
 from collections import Counter, defaultdict
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import median
 from typing import Any, Final
@@ -24,6 +24,7 @@ from app.scoring.conditions import comparison_groups
 from app.session.course import Course, CourseItem, courses, held_back, holding
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
+from app.session.proficiency import IN_A_ROW, passes_in_a_row
 from app.session.signature import Signed
 from app.session.store import records
 
@@ -237,11 +238,16 @@ class Standing:
         attempts: how many count.
         best: points; None where there are none, or none that may be told.
         passed: whether one passes that may be told.
+        in_a_row: of one person: how many of the newest attempts passed one after the other, two at
+            most; of everybody the most that a person has.
+        masters: how many persons master it: of one person 0 or 1.
     """
 
     attempts: int = 0
     best: float | None = None
     passed: bool = False
+    in_a_row: int = 0
+    masters: int = 0
 
 
 def standings(
@@ -273,6 +279,7 @@ def standings(
     known = {one.key: one for one in people.everybody()} if there else {}
     taken, (some_courses, _) = {one.id: one for one in exercises}, courses()
     found: dict[str, Standing] = {}
+    passed: dict[str, dict[str, list[bool]]] = defaultdict(lambda: defaultdict(list))
     for one in index.attempts():
         exercise = taken.get(one.exercise)
         mine = one.student == student.key if student is not None else may_see(one.student)
@@ -283,6 +290,8 @@ def standings(
             continue
         released = said is not None and said.released
         held = holding(some_courses, known.get(one.student), one.exercise, one.version, released)
+        if not held:
+            passed[one.exercise][one.student].append(bool(one.passed))
         before = found.get(one.exercise, Standing())
         totals = [total for total in (before.best, one.total) if total is not None]
         found[one.exercise] = Standing(
@@ -290,6 +299,10 @@ def standings(
             before.best if held else max(totals, default=None),
             before.passed or (bool(one.passed) and not held),
         )
+    for name, persons in passed.items():
+        rows = [passes_in_a_row(one) for one in persons.values()]
+        masters = sum(row >= IN_A_ROW for row in rows)
+        found[name] = replace(found[name], in_a_row=max(rows), masters=masters)
     return found
 
 

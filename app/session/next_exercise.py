@@ -15,11 +15,14 @@ from pathlib import Path
 from typing import Final
 
 from app.exercises.schema import Exercise
+from app.exercises.skill import is_lesson
 from app.scoring.result import Score
+from app.session.board import Standing
 from app.session.course import Course, courses, held_back, holding, not_void
 from app.session.index import Index, Indexed
 from app.session.motion import rivals
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
+from app.session.proficiency import mastered
 from app.session.review import Review
 
 TRIES: Final = 3
@@ -30,9 +33,10 @@ class ProposalReason(StrEnum):
     """Why an exercise is proposed."""
 
     COURSE = "course"  # the next one of the course
-    LEVEL = "level"  # passed: the easiest that is not passed yet
+    LEVEL = "level"  # mastered: the easiest that is not mastered yet
     WEAKNESS = "weakness"  # likewise, and it trains what cost most
     AGAIN = "again"  # not passed: the same once more
+    CONFIRM = "confirm"  # passed once: two passes in a row lead on
     EASIER = "easier"  # not passed several times
     VOID = "void"  # nothing was judged: the same once more
     YOURSELF = "yourself"  # a program did it: the same, by hand
@@ -110,7 +114,7 @@ def propose(
         return Proposal("", "", ProposalReason.CLOSED, course=title)
     if score is None or score.total is None:
         return again(ProposalReason.VOID)
-    passed = _passed(before) | ({done} if score.passed else set())
+    followed = course if done in in_course else None
     if not score.passed:
         tries = _in_a_row(done, before)
         easier = [one for one in exercises if same is not None and one.level < same.level]
@@ -118,7 +122,13 @@ def propose(
         if tries >= TRIES and easier:
             return proposal(_best_for(easier, name)[0], ProposalReason.EASIER, tries)
         return again(ProposalReason.AGAIN, tries)
-    left = still_open(exercises, course if done in in_course else None, passed, refused)
+    if followed is None:
+        over = mastered(before, {one.id: one.version for one in exercises})
+        if done not in over and same is not None and not refused(done):
+            return proposal(same, ProposalReason.CONFIRM)
+    else:
+        over = _passed(before) | {done}
+    left = still_open(exercises, followed, over, refused)
     if not left:
         return again(ProposalReason.DONE)
     if done in in_course:
@@ -131,35 +141,43 @@ def propose(
 def still_open(
     exercises: Sequence[Exercise],
     course: Course | None,
-    passed: Container[str],
+    done: Container[str],
     refused: Callable[[str], str] = lambda _: "",
 ) -> list[Exercise]:
-    """Return what is not passed yet and may be begun, what comes first at the front.
+    """Return what is not done yet and may be begun, what comes first at the front.
 
-    In a course that is its order, else that of the exercises, the easiest first. Start page and
-    debrief both go by it; of equally easy ones the debrief prefers what trains what cost most.
+    In a course that is its order, else that of the lessons, the easiest first: what is for another
+    machine follows from nothing. Start page and debrief both go by it; of equally easy ones the
+    debrief prefers what trains what cost most.
 
     Args:
         exercises: that there are, easiest first.
-        course: whose exercises alone count; None for all.
-        passed: ids of those that were passed.
+        course: whose exercises alone count; None for all lessons.
+        done: ids of those that were passed in the course; without one those that are mastered.
         refused: says why an exercise may not be begun now; empty where it may.
     """
     by_id = {one.id: one for one in exercises}
-    order = list(by_id) if course is None else [item.exercise for item in course.items]
-    return [by_id[one] for one in order if one in by_id and one not in passed and not refused(one)]
+    order = (
+        [one.id for one in exercises if is_lesson(one)]
+        if course is None
+        else [item.exercise for item in course.items]
+    )
+    return [by_id[one] for one in order if one in by_id and one not in done and not refused(one)]
 
 
 def comes_next(
-    passed: Container[str],
+    stood: Mapping[str, Standing],
     exercises: Sequence[Exercise],
     student: Person | None,
     refused: Callable[[str], str] = lambda _: "",
 ) -> str:
-    """Return the exercise that comes next: of a student's course, else of all; empty for none.
+    """Return the exercise that comes next: of a student's course, else of the lessons.
+
+    In a course what is passed leads on, else what is mastered. Where nothing is left it is the one
+    with the lowest best points; empty where none may be begun.
 
     Args:
-        passed: ids of the exercises that were passed.
+        stood: how far who is here has come, by id of the exercise.
         exercises: that there are, easiest first.
         student: who; None for everybody.
         refused: says why an exercise may not be begun now; empty where it may.
@@ -167,9 +185,28 @@ def comes_next(
     Raises:
         SessionError: if the courses cannot be read.
     """
-    some = courses()[0] if student is not None else ()
-    course = next((one for one in some if student is not None and one.takes(student)), None)
-    return next((one.id for one in still_open(exercises, course, passed, refused)), "")
+    course = course_of(student)
+    done = {
+        name
+        for name, one in stood.items()
+        if (one.passed if course is not None else one.masters > 0)
+    }
+    left = still_open(exercises, course, done, refused)
+    if left:
+        return left[0].id
+    able = still_open(exercises, course, (), refused)
+    return min(able, key=lambda one: stood[one.id].best or 0.0).id if able else ""
+
+
+def course_of(student: Person | None) -> Course | None:
+    """Return the course that a student follows; None where there is none.
+
+    Raises:
+        SessionError: if the courses cannot be read.
+    """
+    if student is None:
+        return None
+    return next((one for one in courses()[0] if one.takes(student)), None)
 
 
 def _fits(item: Exercise, in_course: Sequence[str]) -> bool:

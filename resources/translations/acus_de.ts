@@ -15982,10 +15982,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Übungen suchen</translation>
         </message>
         <message>
-            <source>Begin exercise</source>
-            <translation type="unfinished">Übung beginnen</translation>
-        </message>
-        <message>
             <source>Exercises</source>
             <translation type="unfinished">Übungen</translation>
         </message>
@@ -16030,36 +16026,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">CTs, die Sie öffnen, stehen dann hier: Datei ▸ CT-Ordner öffnen…</translation>
         </message>
         <message>
-            <source>any name: your progress is kept under it</source>
-            <translation type="unfinished">beliebiger Name: Ihr Fortschritt wird darunter gespeichert</translation>
-        </message>
-        <message>
             <source>Your name</source>
             <translation type="unfinished">Ihr Name</translation>
         </message>
         <message>
             <source>You practise as</source>
             <translation type="unfinished">Sie üben als</translation>
-        </message>
-        <message>
-            <source>Difficulty</source>
-            <translation type="unfinished">Schwierigkeit</translation>
-        </message>
-        <message>
-            <source>Done</source>
-            <translation type="unfinished">Gemacht</translation>
-        </message>
-        <message>
-            <source>Done and best: everybody at this station. Sign in to see your own.</source>
-            <translation type="unfinished">Gemacht und Bestwert: von allen an dieser Station. Melden Sie sich an, um Ihre zu sehen.</translation>
-        </message>
-        <message>
-            <source>Done and best: {name}.</source>
-            <translation type="unfinished">Gemacht und Bestwert: {name}.</translation>
-        </message>
-        <message>
-            <source>Done and best: everybody at this station.</source>
-            <translation type="unfinished">Gemacht und Bestwert: von allen an dieser Station.</translation>
         </message>
         <message>
             <source>Sign in as a student to see what you have done.</source>
@@ -16080,10 +16052,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>The patient</source>
             <translation type="unfinished">Der Patient</translation>
-        </message>
-        <message>
-            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. Difficulty rises downwards.</source>
-            <translation type="unfinished">Jede Übung hat ihren Patienten: ein CT und meist einen geplanten Pfad vom Einstichpunkt auf der Haut zum Ziel. Eingabe beginnt: zuerst eine Einweisung, dann der Versuch. Die Schwierigkeit nimmt nach unten zu.</translation>
         </message>
         <message>
             <source>The slices</source>
@@ -17720,6 +17688,94 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>--full and --quick ask for both: leave one of them out</source>
             <translation type="unfinished">--full und --quick verlangen beides: eines davon weglassen</translation>
+        </message>
+        <message>
+            <source>The same once more: two passes in a row lead on.</source>
+            <translation type="unfinished">Noch einmal dieselbe: Zweimal nacheinander bestanden führt weiter.</translation>
+        </message>
+        <message>
+            <source>mastered by {n}</source>
+            <translation type="unfinished">von {n} beherrscht</translation>
+        </message>
+        <message>
+            <source>mastered</source>
+            <translation type="unfinished">beherrscht</translation>
+        </message>
+        <message>
+            <source>not begun</source>
+            <translation type="unfinished">noch nicht begonnen</translation>
+        </message>
+        <message>
+            <source>best {points} of 100</source>
+            <translation type="unfinished">Bestwert {points} von 100</translation>
+        </message>
+        <message>
+            <source>mastered: passed twice in a row</source>
+            <translation type="unfinished">beherrscht: zweimal nacheinander bestanden</translation>
+        </message>
+        <message>
+            <source>passed once: one more pass in a row masters it</source>
+            <translation type="unfinished">einmal bestanden: Wer gleich noch einmal besteht, beherrscht sie</translation>
+        </message>
+        <message>
+            <source>No. {n} of the course</source>
+            <translation type="unfinished">Nr. {n} im Kurs</translation>
+        </message>
+        <message>
+            <source>Level {n}</source>
+            <translation type="unfinished">Stufe {n}</translation>
+        </message>
+        <message>
+            <source>Continue</source>
+            <translation type="unfinished">Weiter</translation>
+        </message>
+        <message>
+            <source>No exercise is open to you now.</source>
+            <translation type="unfinished">Jetzt steht Ihnen keine Übung offen.</translation>
+        </message>
+        <message>
+            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
+            <translation type="unfinished">Jede Übung hat ihren Patienten: ein CT und meist einen geplanten Pfad vom Einstichpunkt auf der Haut zum Ziel. Eingabe beginnt: zuerst eine Einweisung, dann der Versuch. Bei jeder Fertigkeit nimmt die Schwierigkeit von links nach rechts zu; ein Ring zeigt, wie weit Sie gekommen sind.</translation>
+        </message>
+        <message>
+            <source>Hand and tissue</source>
+            <translation type="unfinished">Hand und Gewebe</translation>
+        </message>
+        <message>
+            <source>With the breath</source>
+            <translation type="unfinished">Mit der Atmung</translation>
+        </message>
+        <message>
+            <source>Past what must not be met</source>
+            <translation type="unfinished">Vorbei an dem, was zu meiden ist</translation>
+        </message>
+        <message>
+            <source>Plan and control</source>
+            <translation type="unfinished">Planen und kontrollieren</translation>
+        </message>
+        <message>
+            <source>Research machines</source>
+            <translation type="unfinished">Forschungsgeräte</translation>
+        </message>
+        <message>
+            <source>a name of your choice</source>
+            <translation type="unfinished">ein Name Ihrer Wahl</translation>
+        </message>
+        <message>
+            <source>Rings: best points without a name.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Ringe: beste Punkte ohne Namen.
+✔: zweimal nacheinander bestanden.</translation>
+        </message>
+        <message>
+            <source>Rings: best points of {name}.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Ringe: beste Punkte von {name}.
+✔: zweimal nacheinander bestanden.</translation>
+        </message>
+        <message>
+            <source>Rings: everybody's best here.</source>
+            <translation type="unfinished">Ringe: Bestwerte aller hier.</translation>
         </message>
     </context>
 </TS>

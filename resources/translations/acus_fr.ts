@@ -15982,10 +15982,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Chercher un exercice</translation>
         </message>
         <message>
-            <source>Begin exercise</source>
-            <translation type="unfinished">Commencer</translation>
-        </message>
-        <message>
             <source>Exercises</source>
             <translation type="unfinished">Exercices</translation>
         </message>
@@ -16030,36 +16026,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Les CT que vous ouvrez apparaissent ici : Fichier ▸ Ouvrir un dossier CT…</translation>
         </message>
         <message>
-            <source>any name: your progress is kept under it</source>
-            <translation type="unfinished">n’importe quel nom : vos progrès y sont conservés</translation>
-        </message>
-        <message>
             <source>Your name</source>
             <translation type="unfinished">Votre nom</translation>
         </message>
         <message>
             <source>You practise as</source>
             <translation type="unfinished">S’exercer sous le nom</translation>
-        </message>
-        <message>
-            <source>Difficulty</source>
-            <translation type="unfinished">Difficulté</translation>
-        </message>
-        <message>
-            <source>Done</source>
-            <translation type="unfinished">Faits</translation>
-        </message>
-        <message>
-            <source>Done and best: everybody at this station. Sign in to see your own.</source>
-            <translation type="unfinished">Faits et meilleur : tous ceux de ce poste. Connectez-vous pour voir les vôtres.</translation>
-        </message>
-        <message>
-            <source>Done and best: {name}.</source>
-            <translation type="unfinished">Faits et meilleur : {name}.</translation>
-        </message>
-        <message>
-            <source>Done and best: everybody at this station.</source>
-            <translation type="unfinished">Faits et meilleur : tous ceux de ce poste.</translation>
         </message>
         <message>
             <source>Sign in as a student to see what you have done.</source>
@@ -16080,10 +16052,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>The patient</source>
             <translation type="unfinished">Le patient</translation>
-        </message>
-        <message>
-            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. Difficulty rises downwards.</source>
-            <translation type="unfinished">Chaque exercice a son patient : un CT et, le plus souvent, une trajectoire planifiée du point d’entrée sur la peau à la cible. Entrée commence : d’abord les consignes, puis l’essai. La difficulté augmente vers le bas.</translation>
         </message>
         <message>
             <source>The slices</source>
@@ -17720,6 +17688,94 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>--full and --quick ask for both: leave one of them out</source>
             <translation type="unfinished">--full et --quick demandent les deux : retirez l’un d’eux</translation>
+        </message>
+        <message>
+            <source>The same once more: two passes in a row lead on.</source>
+            <translation type="unfinished">Encore une fois le même : deux réussites de suite mènent plus loin.</translation>
+        </message>
+        <message>
+            <source>mastered by {n}</source>
+            <translation type="unfinished">maîtrisé par {n}</translation>
+        </message>
+        <message>
+            <source>mastered</source>
+            <translation type="unfinished">maîtrisé</translation>
+        </message>
+        <message>
+            <source>not begun</source>
+            <translation type="unfinished">pas commencé</translation>
+        </message>
+        <message>
+            <source>best {points} of 100</source>
+            <translation type="unfinished">meilleur {points} sur 100</translation>
+        </message>
+        <message>
+            <source>mastered: passed twice in a row</source>
+            <translation type="unfinished">maîtrisé : réussi deux fois de suite</translation>
+        </message>
+        <message>
+            <source>passed once: one more pass in a row masters it</source>
+            <translation type="unfinished">réussi une fois : encore une réussite de suite et il est maîtrisé</translation>
+        </message>
+        <message>
+            <source>No. {n} of the course</source>
+            <translation type="unfinished">n° {n} du cours</translation>
+        </message>
+        <message>
+            <source>Level {n}</source>
+            <translation type="unfinished">Niveau {n}</translation>
+        </message>
+        <message>
+            <source>Continue</source>
+            <translation type="unfinished">Continuer</translation>
+        </message>
+        <message>
+            <source>No exercise is open to you now.</source>
+            <translation type="unfinished">Aucun exercice ne vous est ouvert pour l’instant.</translation>
+        </message>
+        <message>
+            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
+            <translation type="unfinished">Chaque exercice a son patient : un CT et, le plus souvent, une trajectoire planifiée du point d’entrée sur la peau à la cible. Entrée commence : d’abord les consignes, puis l’essai. Pour chaque compétence, la difficulté augmente de gauche à droite ; un anneau montre où vous en êtes.</translation>
+        </message>
+        <message>
+            <source>Hand and tissue</source>
+            <translation type="unfinished">La main et les tissus</translation>
+        </message>
+        <message>
+            <source>With the breath</source>
+            <translation type="unfinished">Avec la respiration</translation>
+        </message>
+        <message>
+            <source>Past what must not be met</source>
+            <translation type="unfinished">À l’écart de ce qu’il faut éviter</translation>
+        </message>
+        <message>
+            <source>Plan and control</source>
+            <translation type="unfinished">Planifier et contrôler</translation>
+        </message>
+        <message>
+            <source>Research machines</source>
+            <translation type="unfinished">Pour la recherche</translation>
+        </message>
+        <message>
+            <source>a name of your choice</source>
+            <translation type="unfinished">un nom de votre choix</translation>
+        </message>
+        <message>
+            <source>Rings: best points without a name.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Anneaux : meilleurs points sans nom.
+✔ : réussi deux fois de suite.</translation>
+        </message>
+        <message>
+            <source>Rings: best points of {name}.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Anneaux : meilleurs points de {name}.
+✔ : réussi deux fois de suite.</translation>
+        </message>
+        <message>
+            <source>Rings: everybody's best here.</source>
+            <translation type="unfinished">Anneaux : les meilleurs de tous ici.</translation>
         </message>
     </context>
 </TS>

@@ -33,7 +33,7 @@ def user(tmp_path: Path) -> Iterator[User]:
 
 
 def choose(user: User, name: str) -> None:
-    """Stand on an exercise of the start page and begin it."""
+    """Begin an exercise of the start page."""
     user.do("mousemove", *next(iter(user.see()["exercises"].values())))
     for button in (4, 5):
         for _ in range(25):
@@ -41,7 +41,6 @@ def choose(user: User, name: str) -> None:
                 break
             user.do("click", button, "sleep", 0.3)
     user.click(user.see()["exercises"][name])
-    user.click(user.see()["begin"])
     user.wait(lambda seen: seen["page"] == "BriefingPage", "briefing", 20)
     time.sleep(1.0)
 

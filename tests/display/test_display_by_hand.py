@@ -87,11 +87,10 @@ def test_an_assessment_by_control_scans_alone_by_hand(user: User, sessions: Path
     user.wait(lambda seen: seen["page"] == "StartPage", "start page", 60)
     user.do("mousemove", *user.see()["begin"])
     user.do("mousemove", *next(iter(user.see()["exercises"].values())))
-    while "scans-only" not in user.see()["exercises"]:  # further down the list
+    while "scans-only" not in user.see()["exercises"]:  # further down the map
         user.do("click", 5, "sleep", 0.3)
     user.keep_picture("1-start")
     user.click(user.see()["exercises"]["scans-only"])
-    user.click(user.see()["begin"])
     user.wait(lambda seen: seen["page"] == "BriefingPage", "briefing", 10)
     user.key("l")  # looks around before the attempt
     user.wait(lambda seen: seen["page"] == "WorkspacePage", "patient", 120)

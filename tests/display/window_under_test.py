@@ -227,14 +227,11 @@ def middle(widget: QWidget) -> list[int]:
 
 
 def exercises(window: MainWindow) -> dict[str, list[int]]:
-    """Middle of each exercise's row on the start page that can be seen."""
-    rows, places = window.start_page.exercises, {}
-    for number in range(rows.count()):
-        item = rows.item(number)
-        box = rows.visualItemRect(item)
-        if rows.viewport().rect().contains(box.center()):
-            at = rows.viewport().mapToGlobal(box.center())
-            places[item.data(Qt.ItemDataRole.UserRole)] = [at.x(), at.y()]
+    """Middle of each exercise's place on the start page that can be seen."""
+    places = {}
+    for name, place in window.start_page.map.places.items():
+        if place.isVisible() and place.visibleRegion().contains(place.rect().center()):
+            places[name] = middle(place)
     return places
 
 

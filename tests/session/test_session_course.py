@@ -299,13 +299,40 @@ def test_how_far_a_student_has_come_is_told_by_what_counts_alone(station: list[I
         attempt("f", "p-a", 96, verdict="altered"),
         attempt("g", "p-a", None),
     ]
-    assert stood(ADA) == {"lung": Standing(2, 80, True)}
-    assert stood(None)["lung"] == Standing(3, 99, True)  # everybody at this station
-    assert stood(None, lambda student: student == "p-a")["lung"] == Standing(2, 80, True)
-    assert comes_next({"lung"}, EXERCISES, ADA) == "liver"
-    assert comes_next({"liver"}, EXERCISES, None) == "lung"
-    assert comes_next({"liver", "lung"}, EXERCISES, None) == ""
-    assert comes_next((), EXERCISES, ADA, lambda name: name if name == "lung" else "") == "liver"
+    assert stood(ADA) == {"lung": Standing(2, 80, True, 1, 0)}
+    assert stood(None)["lung"] == Standing(3, 99, True, 1, 0)  # everybody at this station
+    assert stood(None, lambda student: student == "p-a")["lung"] == Standing(2, 80, True, 1, 0)
+    assert comes_next({}, EXERCISES, ADA) == "liver"
+    refused = comes_next({}, EXERCISES, ADA, lambda name: name if name == "liver" else "")
+    assert refused == "lung"
+
+
+def test_two_passes_in_a_row_of_one_person_master_an_exercise(station: list[Indexed]) -> None:
+    station += [
+        attempt("a", "p-a", 80),
+        attempt("b", "p-b", 90),
+        attempt("void", "p-a", 40),
+        attempt("c", "p-a", 30, scripted="novice"),
+        attempt("d", "p-a", 20, version=2),
+    ]
+    assert stood(None)["lung"].masters == 0, "two persons passed once each"
+    station.append(attempt("e", "p-a", 85))
+    assert stood(ADA)["lung"] == Standing(2, 85, True, 2, 1)
+    assert stood(BOB)["lung"] == Standing(1, 90, True, 1, 0)
+    assert stood(None)["lung"] == Standing(3, 90, True, 2, 1)
+    assert comes_next(stood(ADA), EXERCISES[1:], None) == "lung"
+    assert comes_next(stood(ADA), EXERCISES[::-1], None) == "liver"
+    assert comes_next(stood(BOB), EXERCISES[::-1], None) == "lung"
+    station.append(attempt("g", "p-a", 50))
+    assert stood(ADA)["lung"] == Standing(3, 85, True, 0, 0)
+
+
+def test_in_a_course_a_pass_leads_on(station: list[Indexed]) -> None:
+    items = (CourseItem(exercise="lung"), CourseItem(exercise="liver"))
+    Course(id="c", title="C", ordered=True, items=items).save()
+    assert comes_next({}, EXERCISES, ADA) == "lung"
+    station.append(attempt("a", "p-a", 80))
+    assert comes_next(stood(ADA), EXERCISES, ADA) == "liver"
 
 
 def test_a_result_that_is_not_released_is_an_attempt_and_nothing_more(
@@ -315,9 +342,9 @@ def test_a_result_that_is_not_released_is_an_attempt_and_nothing_more(
     Course(id="exam", title="Exam", items=(item,)).save()
     station.append(attempt("held", "p-a", 90))
     assert stood(ADA) == {"lung": Standing(1)}
-    assert comes_next((), EXERCISES, ADA) == "lung"  # that of the course
+    assert comes_next({}, EXERCISES, ADA) == "lung"  # that of the course
     station.append(attempt("released", "p-a", 70))
-    assert stood(ADA) == {"lung": Standing(2, 70, True)}
+    assert stood(ADA) == {"lung": Standing(2, 70, True, 1, 0)}
 
 
 def test_a_folder_without_records_is_left_as_it_is(tmp_path: Path) -> None:

@@ -13,9 +13,18 @@ from app.scoring.conditions import Conditions, DeviceKind
 from app.scoring.result import judge
 from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
+from app.session.board import Standing
 from app.session.course import Course, CourseItem, holding
 from app.session.index import Indexed
-from app.session.next_exercise import TRIES, ProposalReason, around, comes_next, held_by, propose
+from app.session.next_exercise import (
+    TRIES,
+    ProposalReason,
+    around,
+    comes_next,
+    held_by,
+    propose,
+    still_open,
+)
 from app.session.people import People, Person
 from app.session.roster import RosterLine
 from app.session.sidecar import write_summary
@@ -45,12 +54,18 @@ def score(angle: float, lateral: float = 0.5):
 
 
 def done(exercise, passed, verdict="unsigned"):
+    version = next((one.version for one in EXERCISES if one.id == exercise), 1)
     known = Conditions(exercise, 1, kind=DeviceKind.SIMULATED, scoring_version=2)
     total = 90.0 if passed else 40.0
     return Indexed(
-        f"{exercise}-{passed}", "2026-11-20T10:00:00+00:00", "ada", exercise, 1, "ended", 30.0,
-        total, passed, verdict, True, json.dumps(known.document()), "{}",
+        f"{exercise}-{passed}", "2026-11-20T10:00:00+00:00", "ada", exercise, version, "ended",
+        30.0, total, passed, verdict, True, json.dumps(known.document()), "{}",
     )  # fmt: skip
+
+
+def twice(*names):
+    """Two passes in a row at each exercise: it is mastered."""
+    return [done(name, True) for name in names for _ in range(2)]
 
 
 def level(name):
@@ -64,18 +79,40 @@ def test_what_was_not_passed_is_proposed_again_with_the_metric_that_cost_most():
     assert found.points == pytest.approx(50.0 * (1.0 - 0.2), abs=10.0)
 
 
-def test_after_an_exercise_that_was_passed_the_easiest_one_that_is_not_passed_yet_follows():
-    before = [done("first-insertion", True)]
+def test_only_two_passes_in_a_row_lead_on_to_the_easiest_that_is_not_mastered_yet():
+    once = propose("first-insertion", score(0.5), [done("first-insertion", True)], EXERCISES)
+    assert (once.exercise, once.reason) == ("first-insertion", ProposalReason.CONFIRM)
+    before = [done("first-insertion", True), done("first-insertion", False)]
+    before.append(done("first-insertion", True))
+    apart = propose("first-insertion", score(0.5), before, EXERCISES)
+    assert apart.reason is ProposalReason.CONFIRM
+    before.append(done("first-insertion", True))
     found = propose("first-insertion", score(0.5), before, EXERCISES)
     assert found.reason is ProposalReason.LEVEL
     assert found.level == min(one.level for one in EXERCISES if one.id != "first-insertion")
-    further = [*before, done(found.exercise, True)]
+    further = [*before, *twice(found.exercise)]
     after = propose("first-insertion", score(0.5), further, EXERCISES)
     assert after.exercise not in ("first-insertion", found.exercise)
 
 
+def test_passes_of_an_earlier_version_master_nothing():
+    before = [replace(one, version=1) for one in twice("first-insertion")]
+    found = propose("first-insertion", score(0.5), before, EXERCISES)
+    assert found.reason is ProposalReason.CONFIRM
+
+
+def test_a_research_machine_follows_from_no_lesson():
+    machine = next(one for one in library() if one.id == "tensegrity-liver")
+    some = sorted((*EXERCISES, machine), key=lambda one: one.level)
+    found = propose("first-insertion", score(0.5), twice("first-insertion"), some)
+    assert found.exercise == "thick-tissue"
+    assert machine not in still_open(some, None, ())
+    assert machine in still_open(some, course("tensegrity-liver"), ())
+
+
 def test_of_equally_hard_ones_the_one_that_judges_what_cost_most_is_proposed():
-    before = [done(one.id, True) for one in EXERCISES if one.level < 4]
+    easier = [one.id for one in EXERCISES if one.level < 4]
+    before = twice(*easier, "breathing-liver")
     found = propose("breathing-liver", score(2.5), before, EXERCISES)
     chosen = next(one for one in EXERCISES if one.id == found.exercise)
     assert found.reason is ProposalReason.WEAKNESS
@@ -117,13 +154,27 @@ def test_in_a_course_the_first_that_is_not_passed_follows_also_one_that_was_skip
 
 
 def test_start_page_and_debrief_name_the_same_exercise():
-    for passed in (set(), {"first-insertion"}, {"first-insertion", "thick-tissue"}):
-        before = [done(name, True) for name in sorted(passed)]
+    for known in ((), ("first-insertion",), ("first-insertion", "thick-tissue")):
+        before = twice(*known, "plan-it-yourself")
         found = propose("plan-it-yourself", score(0.5), before, EXERCISES)
-        there = comes_next(passed | {"plan-it-yourself"}, EXERCISES, None)
+        stood = {name: Standing(2, 90.0, True, 2, 1) for name in (*known, "plan-it-yourself")}
+        there = comes_next(stood, EXERCISES, None)
         level = {one.id: one.level for one in EXERCISES}
         # Of equally easy ones the debrief prefers what trains what cost most.
         assert level[found.exercise] == level[there]
+
+
+def test_one_pass_leaves_the_same_exercise_the_next_on_start_page_and_in_debrief():
+    found = propose("first-insertion", score(0.5), [done("first-insertion", True)], EXERCISES)
+    stood = {"first-insertion": Standing(1, 90.0, True, 1, 0)}
+    assert comes_next(stood, EXERCISES, None) == found.exercise == "first-insertion"
+
+
+def test_who_masters_everything_goes_on_where_the_best_points_are_lowest():
+    stood = {one.id: Standing(2, 90.0, True, 2, 1) for one in EXERCISES}
+    stood["past-the-vessel"] = Standing(2, 70.0, True, 2, 1)
+    assert comes_next(stood, EXERCISES, None) == "past-the-vessel"
+    assert comes_next(stood, EXERCISES, None, lambda _: "closed") == ""
 
 
 def test_what_may_not_be_begun_is_not_proposed():
@@ -154,6 +205,7 @@ def test_attempts_that_were_altered_or_made_by_a_script_pass_nothing():
     scripted = replace(done("thick-tissue", True), counts=False)
     altered = done("thick-tissue", True, verdict="altered")
     before = [scripted, altered, done("first-insertion", True)]
+    before.append(done("first-insertion", True))
     found = propose("first-insertion", score(0.5), before, EXERCISES)
     assert found.exercise == "thick-tissue"
 
@@ -194,7 +246,8 @@ def test_the_folder_says_what_comes_next_and_which_attempts_may_stand_beside(tmp
     write(folder, "c", "ben", 95.0)
     write(folder, "d", "eve", 99.0)
     shown = SimpleNamespace(drill=None, id="a", student="ada", conditions=under, score=score(0.5))
-    found = around(folder, shown, False, EXERCISES, False, lambda who: who != "eve", lambda _: "")
+    first = [one.model_copy(update={"version": 1}) for one in EXERCISES]
+    found = around(folder, shown, False, first, False, lambda who: who != "eve", lambda _: "")
     assert [(one.id, own) for one, own in found.rivals] == [("b", True), ("c", False)]
     assert found.proposal.exercise == "thick-tissue"
     held = around(folder, shown, True, EXERCISES, False, lambda _: True, lambda _: "")

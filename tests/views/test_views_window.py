@@ -32,7 +32,7 @@ from app.views.slices.viewing import Tool
 def test_the_start_page_carries_the_disclaimer_and_the_exercises(window):
     texts = {label.text() for label in window.start_page.findChildren(QLabel)}
     assert DISCLAIMER in texts
-    assert window.start_page.exercises.count() == len(window.feature(ExerciseFeature).exercises)
+    assert len(window.start_page.map.places) == len(window.feature(ExerciseFeature).exercises)
     assert window.pages.currentWidget() is window.start_page
 
 

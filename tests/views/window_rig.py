@@ -286,8 +286,6 @@ def press(window, key, modifier=Qt.KeyboardModifier.NoModifier):
 
 def choose(window, name):
     """Stand on an exercise of the start page and press Enter."""
-    page = window.start_page
-    for row in range(page.exercises.count()):
-        if page.exercises.item(row).data(Qt.ItemDataRole.UserRole) == name:
-            page.exercises.setCurrentRow(row)
-    page.begin.click()
+    place = window.start_page.map.places[name]
+    place.setFocus()
+    QTest.keyClick(place, Qt.Key.Key_Return)

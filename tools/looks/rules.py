@@ -51,6 +51,7 @@ CONTRAST: Final = 4.5
 
 BY_KEY: Final = {
     "FeedButton": "Page Up and Page Down, which the bull's-eye keeps",
+    "SkillPlace": "the arrow keys, from the one place of the map that Tab comes to",
     "KeyDialog": "it takes the next key that is pressed, and Escape cancels",
 }
 """Controls that Tab may leave out, and the keys that do the same."""

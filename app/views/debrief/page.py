@@ -692,7 +692,7 @@ class DebriefPage(QWidget):
 
 
 SAME: Final = (
-    *(ProposalReason.AGAIN, ProposalReason.VOID, ProposalReason.DONE),
+    *(ProposalReason.AGAIN, ProposalReason.CONFIRM, ProposalReason.VOID, ProposalReason.DONE),
     ProposalReason.YOURSELF,
 )
 """Reasons to propose the same exercise once more: the button *Again* does it."""

@@ -365,6 +365,7 @@ def proposal_words(proposal: Proposal) -> str:
             points=points_words(proposal.points),
         ),
         ProposalReason.AGAIN: tr("The same again: it is not passed yet.") + cost,
+        ProposalReason.CONFIRM: tr("The same once more: two passes in a row lead on.") + cost,
         ProposalReason.EASIER: next_one
         + tr(
             " {n} attempts in a row did not pass; this one is of level {level}.",

@@ -1,4 +1,4 @@
-"""The first page: what this is, the exercises with how far one has come, and other ways to begin.
+"""The first page: the exercise that comes next as one big button, and the map of all skills.
 
 It stands before anything heavy is loaded. Pictures that are kept and what has been done so far are
 read beside the window, by `StartFacts`, once it is shown.
@@ -10,165 +10,67 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import (
-    QModelIndex,
-    QObject,
-    QPersistentModelIndex,
-    QRect,
-    QRectF,
-    QRegularExpression,
-    QSize,
-    Qt,
-    Signal,
-)
+from PySide6.QtCore import QEvent, QRectF, QRegularExpression, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
-    QFont,
     QFontMetrics,
     QKeySequence,
     QPainter,
+    QPainterPath,
+    QPaintEvent,
     QRegularExpressionValidator,
+    QResizeEvent,
     QShortcut,
+    QShowEvent,
 )
 from PySide6.QtWidgets import (
     QFrame,
+    QGridLayout,
     QHBoxLayout,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
     QPushButton,
-    QStyle,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
+    QSizePolicy,
     QVBoxLayout,
     QWidget,
 )
 
-from app.core.progress import Progress
-from app.exercises.portrait import Portrait, kept_portrait
+from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
-from app.views.exercise.briefing import level_words, paint_portrait
 from app.views.exercise.panel import PSEUDONYM
 from app.views.kit import theme
-from app.views.kit.access import ACCESS
-from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
-from app.views.kit.roles import Role
 from app.views.kit.text import declared, literal, tr
 from app.views.shell.shortcuts import disclaimer_label
+from app.views.shell.skill_map import SkillMap
+from app.views.shell.skill_place import fitting
+from app.views.shell.skill_portrait import paint_face
 
 if TYPE_CHECKING:
     from app.session.board import Standing
-    from app.views.shell.services import Services
 
-OWN_WIDTH: Final = 330
-ROW: Final = 68
-PICTURE: Final = 88
-COLUMNS: Final = (("level", 120), ("done", 84), ("best", 62))
-"""Columns at the right of a row, with their width."""
+CARD: Final = (320, 0.235, 460)
+"""Width of what stands beside the map: least [px], share of the page, most [px]."""
 
-AnyIndex = QModelIndex | QPersistentModelIndex
-_EXERCISE, _PORTRAIT, _STANDING, _NEXT = (Qt.ItemDataRole.UserRole + n for n in range(1, 5))
+SEARCH_WIDTH: Final = 240
+PICTURE: Final = (110, 360)
+"""Least and largest height of the picture of what comes next [px]."""
 
+AROUND: Final = 1.35
+"""How many times as wide as in the map its patient is shown beside it."""
 
-def standing_words(standing: Standing | None) -> tuple[str, str]:
-    """Say how often something was done and how well at best; dashes where it never was."""
-    if standing is None or not standing.attempts:
-        return "–", "–"
-    sign = "✔ " if standing.passed else ""
-    best = "–" if standing.best is None else f"{standing.best:.0f}"
-    return f"{sign}{standing.attempts}", best
-
-
-class ExerciseRow(QStyledItemDelegate):
-    """Draws an exercise: patient, title and what it is about, then columns that stand aligned."""
-
-    def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
-        """Return the same height for every row."""
-        return QSize(200, theme.px(ROW))
-
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
-        """Draw a row."""
-        exercise = index.data(_EXERCISE)
-        box: QRect = option.rect
-        state = option.state
-        chosen = bool(state & QStyle.StateFlag.State_Selected)
-        ink = QColor(theme.now(theme.BACKGROUND if chosen else theme.TEXT))
-        dim = ink if chosen else QColor(theme.now(theme.TEXT_DIM))
-        painter.save()
-        if chosen:
-            painter.fillRect(box, QColor(theme.now(theme.ACCENT)))
-        picture = QRectF(box.left() + 4, box.top() + 3, theme.px(PICTURE), box.height() - 6)
-        painter.fillRect(picture, QColor(theme.IMAGE_BACKGROUND))
-        portrait = index.data(_PORTRAIT)
-        if portrait is not None:
-            paint_portrait(painter, picture, portrait, "axial")
-        left, right = round(picture.right()) + theme.SPACING, box.right() - theme.SPACING
-        done, best = standing_words(index.data(_STANDING))
-        columns = {"level": "●" * min(exercise.level, 9), "done": done, "best": best}
-        painter.setFont(_font(painter, theme.FONT_PX))
-        for name, width in reversed(COLUMNS):
-            width = theme.px(width)
-            place = QRect(right - width, box.top(), width, box.height())
-            side = Qt.AlignmentFlag.AlignLeft if name == "level" else Qt.AlignmentFlag.AlignRight
-            painter.setPen(ink)
-            painter.drawText(place, side | Qt.AlignmentFlag.AlignVCenter, columns[name])
-            right -= width
-        words = QRect(left, box.top() + 4, right - left - theme.SPACING, box.height() - 8)
-        self._words(painter, words, exercise, bool(index.data(_NEXT)), ink, dim)
-        painter.restore()
-
-    def _words(
-        self,
-        painter: QPainter,
-        box: QRect,
-        exercise: Exercise,
-        comes: bool,
-        ink: QColor,
-        dim: QColor,
-    ) -> None:
-        top = Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft
-        painter.setFont(_font(painter, theme.FONT_PX, True))
-        title = declared(exercise.title) + ("   ▸ " + tr("next") if comes else "")
-        metrics = QFontMetrics(painter.font())
-        painter.setPen(ink)
-        painter.drawText(
-            box, top, metrics.elidedText(title, Qt.TextElideMode.ElideRight, box.width())
-        )
-        painter.setFont(_font(painter, theme.SMALL_PX))
-        painter.setPen(dim)
-        below = box.adjusted(0, metrics.height() + 1, 0, 0)
-        small = QFontMetrics(painter.font())
-        lines = max(1, below.height() // (small.lineSpacing() + 1))
-        text = _fitting(declared(exercise.description), small, below.width(), lines)
-        painter.drawText(below, top | Qt.TextFlag.TextWordWrap, text)
-
-
-def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
-    font = QFont(painter.font())
-    font.setPixelSize(theme.px(pixels))
-    font.setBold(bold)
-    return font
-
-
-def _fitting(text: str, metrics: QFontMetrics, width: int, lines: int) -> str:
-    """Return as many whole words as stand on so many lines, with dots where some are left out."""
-    words, kept = text.split(), ""
-    box, flags = QRect(0, 0, width, 10_000), int(Qt.TextFlag.TextWordWrap)
-    room = lines * (metrics.lineSpacing() + 1)  # Qt rounds each line up
-    for number, word in enumerate(words):
-        longer = f"{kept} {word}".strip()
-        last = number == len(words) - 1
-        tried = longer if last else f"{longer} …"
-        if metrics.boundingRect(box, flags, tried).height() > room:
-            return f"{kept} …"
-        kept = longer
-    return kept
+ABOUT_LINES: Final = 4
 
 
 class StartPage(QWidget):
-    """Exercises, own CTs, past sessions.
+    """What comes next, the map of skills, own CTs.
+
+    Attributes:
+        map: all exercises.
+        begin: the big button; it begins the exercise that it names.
+        comes: identifier of that exercise, which the map marks; empty for none.
 
     Signals:
         exercise_chosen(str): identifier of the exercise to begin.
@@ -184,7 +86,9 @@ class StartPage(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.exercises, self.recents = QListWidget(self), QListWidget(self)
+        self.comes = ""
+        self.begin, self.map = BigButton(self), SkillMap(self)
+        self.recents = QListWidget(self)
         self.recents.setAccessibleName(tr("Your own CT"))
         self.recents.setWordWrap(True)
         self.recents.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -194,17 +98,11 @@ class StartPage(QWidget):
         self.search.setClearButtonEnabled(True)
         self.hint.setWordWrap(True)
         self.hint.setProperty("role", "dim")
-        self.whose = PlainLabel(self)
-        self.whose.setProperty("role", "dim")
-        self.begin = QPushButton(tr("Begin exercise"), self)
-        self.begin.setProperty("role", "primary")
-        self.who = NameLine(self)
-        self.exercises.setItemDelegate(ExerciseRow(self.exercises))
-        self.exercises.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.exercises.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
-        self.exercises.setVerticalScrollMode(QListWidget.ScrollMode.ScrollPerPixel)
-        self.exercises.setUniformItemSizes(True)
-        self.exercises.setAccessibleName(tr("Exercises"))
+        self.whose, self.about = PlainLabel(self), PlainLabel(self)
+        for label in (self.whose, self.about):
+            label.setProperty("role", "dim")
+            label.setWordWrap(True)
+        self.picture, self.who = NextPicture(self), NameLine(self)
         self.offer = QWidget(self)
         self.tour = QPushButton(tr("Three-minute tour"), self.offer)
         self.no_tour = QPushButton(tr("Not now"), self.offer)
@@ -212,11 +110,10 @@ class StartPage(QWidget):
         self._lay_out()
         self.tour.clicked.connect(lambda: self._answer(True))
         self.no_tour.clicked.connect(lambda: self._answer(False))
-        self.setTabOrder(self.exercises, self.search)  # arrows and Enter choose from the start
         self.begin.clicked.connect(self._begin)
+        self.map.chosen.connect(self.exercise_chosen)
         self.search.textChanged.connect(self._find)
-        self.search.returnPressed.connect(self._begin)
-        self.exercises.itemActivated.connect(self._begin)
+        self.search.returnPressed.connect(self._begin_first)
         start = QShortcut(QKeySequence(Qt.Key.Key_F5), self)
         start.activated.connect(self._begin)
         self.who.line.editingFinished.connect(lambda: self.named.emit(self.who.line.text()))
@@ -225,42 +122,40 @@ class StartPage(QWidget):
         )
 
     def set_exercises(self, exercises: Sequence[Exercise]) -> None:
-        """List the exercises, easiest first; what is known of them stays."""
-        chosen, known = self._chosen(), self._known()
-        self.exercises.clear()
-        for exercise in exercises:
-            item = QListWidgetItem(declared(exercise.title))
-            item.setToolTip(literal(declared(exercise.description)))
-            item.setData(Qt.ItemDataRole.UserRole, exercise.id)
-            item.setData(_EXERCISE, exercise)
-            for role, value in known.get(exercise.id, {}).items():
-                item.setData(role, value)
-            self.exercises.addItem(item)
-            self._say(item)
-        place = next((n for n, one in enumerate(exercises) if one.id == chosen), 0)
-        self.exercises.setCurrentRow(place)
+        """Show the exercises, easiest first; what is known of them stays."""
+        self.map.set_exercises(exercises)
+        if self.comes not in self.map.places:
+            self.comes = next(iter(self.map.places), "")
+        self._show_next()
         self._find()
 
     def set_portrait(self, identifier: str, portrait: Portrait) -> None:
         """Show the patient of an exercise."""
-        for item in self._items():
-            if item.data(Qt.ItemDataRole.UserRole) == identifier:
-                item.setData(_PORTRAIT, portrait)
+        self.map.show_portrait(identifier, portrait)
+        if identifier == self.comes:
+            self._show_next()
 
-    def set_standings(self, standings: Mapping[str, Standing], comes: str, whose: str) -> None:
+    def set_standings(
+        self,
+        standings: Mapping[str, Standing],
+        comes: str,
+        whose: str,
+        of_one: bool = True,
+        course: Sequence[str] = (),
+    ) -> None:
         """Show how far somebody has come.
 
         Args:
             standings: by identifier of the exercise; those that are not in it were never done.
             comes: identifier of the exercise that comes next; empty for none.
             whose: says whose these are.
+            of_one: whether they are one person's.
+            course: identifiers in the order of the course that is followed; empty for none.
         """
         self.whose.setText(whose)
-        for item in self._items():
-            name = item.data(Qt.ItemDataRole.UserRole)
-            item.setData(_STANDING, standings.get(name))
-            item.setData(_NEXT, name == comes)
-            self._say(item)
+        self.comes = comes
+        self.map.set_standings(standings, comes, of_one, course)
+        self._show_next()
 
     def set_recents(self, paths: Sequence[Path]) -> None:
         """List CTs that were opened before."""
@@ -279,59 +174,79 @@ class StartPage(QWidget):
         """Offer the tour, beside everything else, or no more."""
         self.offer.setVisible(offered)
 
+    def showEvent(self, event: QShowEvent) -> None:
+        """Let Enter begin what comes next."""
+        super().showEvent(event)
+        self.begin.setFocus()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the width between card and map."""
+        super().resizeEvent(event)
+        self._share()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Share it anew where the text has another size."""
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.StyleChange:
+            self._share()
+
     # --- inside -------------------------------------------------------------------------------
+    def _share(self) -> None:
+        least, share, most = CARD
+        larger = theme.scale() ** 0.5
+        width = min(max(least * larger, share * self.width()), most * larger)
+        if round(width) != self.card.width():
+            self.card.setFixedWidth(round(width))
+        self._write_about()
+
     def _answer(self, wanted: bool) -> None:
         self.offer_tour(False)
         self.tour_wanted.emit(wanted)
 
-    def _items(self) -> list[QListWidgetItem]:
-        return [self.exercises.item(row) for row in range(self.exercises.count())]
+    def _show_next(self) -> None:
+        """Name what comes next, on the button and over it."""
+        place = self.map.places.get(self.comes)
+        self.begin.setEnabled(place is not None)
+        if place is None:
+            self.begin.say(tr("Continue"), tr("No exercise is open to you now."))
+            self.about.setText("")
+            self.picture.show_exercise(None, None)
+            return
+        self.begin.say(tr("Continue"), declared(place.exercise.title))
+        self.picture.show_exercise(place.exercise, place.portrait)
+        self._write_about()
 
-    def _chosen(self) -> str:
-        item = self.exercises.currentItem()
-        return "" if item is None else str(item.data(Qt.ItemDataRole.UserRole))
-
-    def _known(self) -> dict[str, dict[int, object]]:
-        roles = (_PORTRAIT, _STANDING, _NEXT)
-        return {
-            item.data(Qt.ItemDataRole.UserRole): {role: item.data(role) for role in roles}
-            for item in self._items()
-        }
-
-    def _say(self, item: QListWidgetItem) -> None:
-        """Tell in words what the row draws, for those who hear it."""
-        exercise = item.data(_EXERCISE)
-        done, best = standing_words(item.data(_STANDING))
-        parts = [declared(exercise.title), level_words(exercise.level)]
-        if done != "–":
-            parts += [tr("done {n}", n=done), tr("best {points}", points=best)]
-        if item.data(_NEXT):
-            parts.append(tr("next"))
-        item.setData(Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
+    def _write_about(self) -> None:
+        place = self.map.places.get(self.comes)
+        if place is None:
+            return
+        metrics = QFontMetrics(theme.font_of(theme.SMALL_PX))
+        width = self.card.width() - 2 * theme.MARGIN - 2
+        whole = declared(place.exercise.description)
+        text = fitting(whole, metrics, width, ABOUT_LINES)
+        self.about.setText(text)
+        self.about.setToolTip(literal(whole) if text != whole else "")
 
     def _find(self) -> None:
         """Show the exercises whose title or description holds every word that is searched."""
-        words = self.search.text().casefold().split()
-        found: list[QListWidgetItem] = []
-        for item in self._items():
-            text = f"{item.text()} {item.toolTip()}".casefold()
-            item.setHidden(not all(word in text for word in words))
-            if not item.isHidden():
-                found.append(item)
-        if found and self.exercises.currentItem() not in found:
-            self.exercises.setCurrentItem(found[0])
-        self.begin.setEnabled(bool(found))
+        found = self.map.narrow(self.search.text().casefold().split())
         self.hint.setVisible(not found)
         self.hint.setText(
             tr("No exercise holds these words: clear the search to see all.")
-            if self.exercises.count()
+            if self.map.places
             else tr("No exercises found.")
         )
 
     def _begin(self) -> None:
-        item = self.exercises.currentItem()
-        if item is not None and not item.isHidden():
-            self.exercise_chosen.emit(item.data(Qt.ItemDataRole.UserRole))
+        if self.comes in self.map.places:
+            self.exercise_chosen.emit(self.comes)
+
+    def _begin_first(self) -> None:
+        """Begin the first exercise that the search shows."""
+        words = self.search.text().casefold().split()
+        found = self.map.narrow(words) if words else []
+        if found:
+            self.exercise_chosen.emit(found[0])
 
     def _lay_out(self) -> None:
         title, what = (
@@ -345,38 +260,146 @@ class StartPage(QWidget):
         for widget in (title, what):
             head.addWidget(widget, 0, Qt.AlignmentFlag.AlignBottom)
         head.addStretch(1)
-        first = QHBoxLayout(self.offer)
+        self.search.setFixedWidth(SEARCH_WIDTH)
+        head.addWidget(self.search, 0, Qt.AlignmentFlag.AlignBottom)
+        self.offer.setProperty("role", "clear")
+        first = QGridLayout(self.offer)
         first.setContentsMargins(0, 0, 0, 0)
-        first.addWidget(PlainLabel(tr("First time here?"), self.offer))
-        first.addWidget(self.tour)
-        first.addWidget(self.no_tour)
-        head.addWidget(self.offer, 0, Qt.AlignmentFlag.AlignBottom)
+        first.setSpacing(theme.SPACING)
+        first.addWidget(PlainLabel(tr("First time here?"), self.offer), 0, 0)
+        first.addWidget(self.no_tour, 0, 1)
+        first.addWidget(self.tour, 1, 0, 1, 2)
+        first.setColumnStretch(0, 1)
+        lessons = QVBoxLayout()
+        lessons.setSpacing(theme.SPACING)
+        lessons.addWidget(self.hint)
+        lessons.addWidget(self.map, 1)
         row = QHBoxLayout()
         row.setSpacing(2 * theme.MARGIN)
-        row.addWidget(
-            _card(
-                tr("Exercises"),
-                (
-                    self.search,
-                    ColumnTitles(self),
-                    self.exercises,
-                    self.hint,
-                    self.who,
-                    self.whose,
-                    self.begin,
-                ),
-            ),
-            1,
-        )
-        self.own = _card(tr("Your own CT"), (self.recents,))
-        self.own.setFixedWidth(OWN_WIDTH)
-        row.addWidget(self.own)
+        row.addWidget(self._card())
+        row.addLayout(lessons, 1)
         page = QVBoxLayout(self)
-        page.setContentsMargins(3 * theme.MARGIN, theme.MARGIN, 3 * theme.MARGIN, 0)
-        page.setSpacing(theme.SPACING)
+        page.setContentsMargins(2 * theme.MARGIN, theme.MARGIN, 2 * theme.MARGIN, 0)
+        page.setSpacing(theme.MARGIN)
         page.addLayout(head)
         page.addLayout(row, 1)
         page.addWidget(disclaimer_label(self))
+
+    def _card(self) -> QFrame:
+        """Return what stands beside the map: picture and button of what comes next, who, CTs."""
+        self.own = QWidget(self)
+        self.own.setProperty("role", "clear")
+        own = QVBoxLayout(self.own)
+        own.setContentsMargins(0, theme.SPACING, 0, 0)
+        heading = PlainLabel(tr("Your own CT"))
+        heading.setProperty("role", "heading")
+        own.addWidget(heading)
+        own.addWidget(self.recents, 1)
+        self.card = QFrame(self)
+        self.card.setProperty("role", "panel")
+        column = QVBoxLayout(self.card)
+        column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
+        column.setSpacing(theme.SPACING)
+        column.addWidget(self.picture, 2)  # it takes what the others leave
+        column.addWidget(self.begin)
+        column.addWidget(self.about)
+        column.addWidget(self.own, 1)
+        column.addStretch()
+        for widget in (self.offer, self.who, self.whose):
+            column.addWidget(widget)
+        return self.card
+
+
+class BigButton(QPushButton):
+    """The one big button: what it does, and the exercise that it names below."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._name = ""
+        self.verb, self.name = PlainLabel(self), PlainLabel(self)
+        self.verb.setProperty("role", "title")
+        self.name.setProperty("role", "heading")
+        lines = QVBoxLayout(self)
+        lines.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
+        lines.setSpacing(0)
+        for label in (self.verb, self.name):
+            label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+            lines.addWidget(label)
+        self.setProperty("role", "primary")
+        self.setAutoDefault(True)  # Enter presses it
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+
+    def say(self, verb: str, name: str) -> None:
+        """Show a verb and the title of an exercise."""
+        self._name = name
+        self.verb.setText(verb)
+        self.setAccessibleName(f"{verb}: {name}")
+        ink = theme.present().on_accent if self.isEnabled() else theme.present().disabled
+        for label in (self.verb, self.name):
+            label.setStyleSheet(f"color: {ink};")
+        self._fit()
+
+    def sizeHint(self) -> QSize:
+        """Return two lines with air."""
+        verb = QFontMetrics(theme.font_of(theme.TITLE_PX, True)).height()
+        name = QFontMetrics(theme.font_of(theme.FONT_PX, True)).height()
+        return QSize(theme.px(160), verb + name + 2 * theme.px(theme.MARGIN))
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the same: a long title gives way."""
+        return self.sizeHint()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show more or less of the title."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Take another height where the text has another size."""
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.StyleChange:
+            self.updateGeometry()
+
+    def _fit(self) -> None:
+        room = max(self.width() - 3 * theme.MARGIN, theme.px(80))
+        metrics = QFontMetrics(theme.font_of(theme.FONT_PX, True))
+        name = metrics.elidedText(self._name, Qt.TextElideMode.ElideRight, room)
+        self.name.setText(name)
+        self.name.setToolTip(literal(self._name) if name != self._name else "")
+        self.setToolTip(self.name.toolTip())
+
+
+class NextPicture(QWidget):
+    """The patient of the exercise that comes next."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._exercise: Exercise | None = None
+        self._portrait: Portrait | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setMinimumHeight(PICTURE[0])
+        self.setMaximumHeight(PICTURE[1])
+
+    def sizeHint(self) -> QSize:
+        """Return the least: its place in the layout gives it more."""
+        return QSize(CARD[0], PICTURE[0])
+
+    def show_exercise(self, exercise: Exercise | None, portrait: Portrait | None) -> None:
+        """Show the patient of an exercise; nothing without one."""
+        self._exercise, self._portrait = exercise, portrait
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw."""
+        painter, box = QPainter(self), QRectF(self.rect())
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        frame = QPainterPath()
+        frame.addRoundedRect(box, 6, 6)
+        painter.setClipPath(frame)
+        painter.fillRect(box, QColor(theme.IMAGE_BACKGROUND))
+        if self._exercise is not None and self._portrait is not None:
+            paint_face(painter, box, self._exercise, self._portrait, AROUND)
 
 
 class NameLine(QWidget):
@@ -389,167 +412,16 @@ class NameLine(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.line = QLineEdit(self)
-        self.line.setPlaceholderText(tr("any name: your progress is kept under it"))
+        self.line.setPlaceholderText(tr("a name of your choice"))
         self.line.setAccessibleName(tr("Your name"))
-        self.line.setMaximumWidth(theme.px(OWN_WIDTH))
         self.line.setValidator(
             QRegularExpressionValidator(QRegularExpression(f"^{PSEUDONYM}$"), self.line)
         )
         self.line.setToolTip(
             tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
         )
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(PlainLabel(tr("You practise as"), self))
-        row.addWidget(self.line, 1)
-        row.addStretch(1)
-
-
-class ColumnTitles(QWidget):
-    """Names of the columns, over them."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        titles = {"level": tr("Difficulty"), "done": tr("Done"), "best": tr("Best")}
-        row = QHBoxLayout(self)
-        bar = self.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
-        row.setContentsMargins(theme.SPACING, 0, theme.SPACING + bar, 0)
-        row.setSpacing(0)
-        row.addStretch(1)
-        for name, width in COLUMNS:
-            title = PlainLabel(titles[name], self)
-            title.setProperty("role", "dim")
-            title.setFixedWidth(theme.px(width))
-            side = Qt.AlignmentFlag.AlignLeft if name == "level" else Qt.AlignmentFlag.AlignRight
-            title.setAlignment(side | Qt.AlignmentFlag.AlignVCenter)
-            title.setContentsMargins(0, 0, 0, 0)
-            row.addWidget(title)
-
-
-def _card(heading: str, widgets: Sequence[QWidget]) -> QFrame:
-    card = QFrame()
-    card.setProperty("role", "panel")
-    column = QVBoxLayout(card)
-    column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
-    column.setSpacing(theme.SPACING)
-    label = PlainLabel(heading)
-    label.setProperty("role", "heading")
-    column.addWidget(label)
-    for widget in widgets:
-        column.addWidget(widget)
-    return card
-
-
-class StartFacts(QObject):
-    """Reads beside the window what the start page tells of patients and of what was done.
-
-    One thing at a time, and nothing while somebody opens a patient or has an attempt.
-    """
-
-    def __init__(self, page: StartPage, services: Services, parent: QObject) -> None:
-        super().__init__(parent)
-        self._page, self._services = page, services
-        self._standings: BackgroundTask | None = None
-        self._picture: BackgroundTask | None = None
-        self._pictured: set[str] = set()
-        self._may_picture = False
-        ACCESS.changed.connect(self._follow)
-
-    @property
-    def pictured(self) -> int:
-        """Exercises whose patient was looked for."""
-        return len(self._pictured)
-
-    def begin(self) -> None:
-        """Show what is kept, and read the rest: the window stands."""
-        self.show_kept()
-        self.refresh()
-
-    def refresh(self) -> None:
-        """Read what was done so far; pictures that are missing follow."""
-        exercises, folder = self._services.exercises(), self._services.sessions()
-        student, manages = ACCESS.student, ACCESS.may_manage
-        own = ACCESS.role is Role.STUDENT and student is None
-        name = self._page.who.line.text() if own else ""
-        if self._standings is not None:
-            self._standings.drop()
-
-        def read(_: Progress) -> tuple[dict[str, Standing], str]:
-            from app.session.board import standings  # SQLAlchemy: beside the window
-            from app.session.next_exercise import comes_next
-
-            found = standings(
-                folder, exercises, student, (lambda one: one == name) if name else ACCESS.may_see
-            )
-            passed = {name for name, standing in found.items() if standing.passed}
-            return found, comes_next(passed, exercises, student, ACCESS.refusal)
-
-        def show(result: tuple[dict[str, Standing], str]) -> None:
-            whose = (
-                tr("Done and best: everybody at this station. Sign in to see your own.")
-                if student is None
-                else tr("Done and best: {name}.", name=NAMES.shown(student.pseudonym))
-            )
-            if name:
-                whose = tr("Done and best: {name}.", name=NAMES.shown(name))
-            elif own and not ACCESS.guarded:
-                whose = tr("Done and best: everybody at this station.")
-            elif student is None and not manages:
-                whose = tr("Sign in as a student to see what you have done.")
-            self._page.set_standings(*result, whose)
-            self._done()
-
-        self._standings = run_in_background(self, read, show, lambda _: self._done())
-
-    def let_picture(self, may: bool) -> None:
-        """Let pictures be made that are missing, or have that wait."""
-        self._may_picture = may
-        if not may and self._picture is not None:
-            self._picture.drop()
-            self._picture = None
-        elif may:
-            self._next_picture()
-
-    def show_kept(self) -> None:
-        """Show the pictures that are kept already: files of some ten kilobytes."""
-        for exercise in self._services.exercises():
-            portrait = kept_portrait(exercise) if exercise.id not in self._pictured else None
-            if portrait is not None:
-                self._pictured.add(exercise.id)
-                self._page.set_portrait(exercise.id, portrait)
-
-    def close(self) -> None:
-        """End what runs; idempotent."""
-        for task in (self._standings, self._picture):
-            if task is not None:
-                task.close()
-        self._standings = self._picture = None
-        self._may_picture = False
-
-    def _follow(self) -> None:
-        if self._page.isVisible():
-            self.refresh()
-
-    def _done(self) -> None:
-        self._standings = None
-        self._next_picture()
-
-    def _next_picture(self) -> None:
-        missing = [one for one in self._services.exercises() if one.id not in self._pictured]
-        if self._picture is not None or not self._may_picture or not missing:
-            return
-        exercise, services = missing[0], self._services
-
-        def show(portrait: Portrait | None) -> None:
-            self._picture = None
-            self._pictured.add(exercise.id)
-            if portrait is not None:
-                self._page.set_portrait(exercise.id, portrait)
-            self._next_picture()
-
-        self._picture = run_in_background(
-            self,
-            lambda progress: services.portrait(exercise, None, progress),
-            show,
-            lambda _: show(None),
-        )
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.setSpacing(theme.SPACING // 2)
+        rows.addWidget(PlainLabel(tr("You practise as"), self))
+        rows.addWidget(self.line)

@@ -305,10 +305,11 @@ class Tour(QObject):
                 tr(
                     "Every exercise has its patient: a CT and, mostly, a planned path from the "
                     "entry on the skin to the target. Enter begins: first a briefing, then the "
-                    "attempt. Difficulty rises downwards."
+                    "attempt. In each skill difficulty rises from left to right; a ring "
+                    "shows how far you have come."
                 ),
                 start,
-                lambda: start.exercises,
+                lambda: start.map,
             ),
             TourStop(
                 tr("The slices"),

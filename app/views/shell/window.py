@@ -58,7 +58,8 @@ from app.views.shell.services import Services
 from app.views.shell.settings import Recents, open_settings
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ShortcutSheet
-from app.views.shell.start_page import StartFacts, StartPage
+from app.views.shell.start_facts import StartFacts
+from app.views.shell.start_page import StartPage
 from app.views.shell.student_side import StudentSide
 from app.views.shell.tour import Tour
 from app.views.shell.view_menu import ViewMenu
@@ -488,6 +489,7 @@ class MainWindow(QMainWindow):
     def showEvent(self, event: QShowEvent) -> None:
         """Begin to load what an exercise needs, behind the window."""
         super().showEvent(event)
+        self.start_facts.show_kept()  # tens of milliseconds: no place is ever without its face
         QTimer.singleShot(PAINTED_MS, self.runs.prepare)
         QTimer.singleShot(PAINTED_MS, self.start_facts.begin)
         debrief = self.feature(DebriefFeature)
