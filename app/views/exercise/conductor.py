@@ -202,7 +202,12 @@ class Conductor(QObject):
         self._surfaces = SurfaceExtraction(workspace.scene, self)
         self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
         self.scans = ScanSource(self.controller, workspace, lambda: self.patient, self)
+        self.controller.rester.seen = self._is_seen
         self._connect()
+
+    def _is_seen(self) -> bool:
+        """Return whether the views of the exercise may be seen."""
+        return self._workspace.isVisible() and not self._workspace.window().isMinimized()
 
     def _connect(self) -> None:
         viewing, scene = self._workspace.viewing, self._workspace.scene

@@ -33,6 +33,7 @@ from app.views.exercise.readings import (
     status_items,
     tracker_figures,
 )
+from app.views.exercise.resting import Rester
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import MessageList, StatusStrip
 from app.views.exercise.status_items import MISSED_WINDOW
@@ -203,6 +204,9 @@ __all__ = ["PERIOD_MS", "ExerciseController", "ExerciseViews"]
 PERIOD_MS: Final = 16
 """The window polls the trainer this often: 60 Hz, as screens do."""
 
+REST_MS: Final = 100
+"""So often while robot and cameras rest, to see whether they still do."""
+
 
 class ExerciseController(QObject):
     """Feeds the exercise's widgets from a trainer, and the trainer from them.
@@ -223,6 +227,7 @@ class ExerciseController(QObject):
     Attributes:
         refusal: says why who is here may not begin this exercise; empty if nothing speaks against.
         intercepted: asked when somebody wants to begin: whether something else comes first.
+        rester: lets simulated robot and cameras rest, and this look at them less meanwhile.
     """
 
     needle_moved = Signal(object)
@@ -252,6 +257,9 @@ class ExerciseController(QObject):
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.poll)
+        self.rester = Rester(self)
+        self.rester.changed.connect(self._take_rest)
+        self.rester.failed.connect(lambda error: self._fail(translated(error)))
         self._connect()
 
     # --- life -------------------------------------------------------------------------------------
@@ -266,12 +274,14 @@ class ExerciseController(QObject):
         self._views.panel.enable.set_wanted(run.held_arming)
         self._views.panel.energy.begin(run.is_real)
         self._views.panel.set_assistance(run.trainer.snapshot().assistance)
-        self._timer.start()
+        self.rester.begin(run)
+        self._timer.start(PERIOD_MS)
         self.attached.emit()
 
     def detach(self) -> None:
         """Let go of the trainer, without closing it; idempotent."""
         self._timer.stop()
+        self.rester.begin(None)
         self._views.panel.enable.set_wanted(False)  # lets go before the trainer is gone
         self._run, self._ending, self._quiet = None, False, False
         self._views.bullseye.set_scene(None, False)
@@ -350,6 +360,8 @@ class ExerciseController(QObject):
         if self._unreadable:
             self._unreadable = ""
             self.worked.emit()
+        if self.rester.rests(snapshot, now):
+            return
         self._drain(run)
         self._display.take_hand(snapshot)
         # Nobody beyond this line knows more than may be told.
@@ -360,6 +372,13 @@ class ExerciseController(QObject):
         if shown.pose.valid:
             self.needle_moved.emit(shown.pose)
         self._take_result(run)
+
+    def _take_rest(self, rests: bool) -> None:
+        """Look seldom while robot and cameras rest: what is shown stays as it is."""
+        self._timer.setInterval(REST_MS if rests else PERIOD_MS)
+        if not rests:
+            self._beat = self._clock.now()
+            self._display.begin()  # no rate spans a rest
 
     def _tell_unreadable(self, reason: str) -> None:
         """Say once why there is no snapshot; the next poll tries again."""
@@ -397,6 +416,7 @@ class ExerciseController(QObject):
             return
         if not (run.demonstrates or self._led_as) and self.intercepted():
             return
+        self.rester.stir()
         self.beginning.emit()
         self._views.messages.clear()
         self._views.messages.start_clock(run.trainer.snapshot().time)
