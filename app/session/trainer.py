@@ -91,7 +91,7 @@ class Trainer:
         trust: DepthTrust = TRUST,
         start: Start = Start.ANYWHERE,
         beginnings: Beginnings | None = None,
-        rests: bool = False,
+        simulated: bool = False,
     ) -> None:
         """Keep the parts.
 
@@ -102,8 +102,9 @@ class Trainer:
         met. `dial` is the assistance that every attempt begins with; None for the exercise's.
         `trust` says how far a depth by the cameras is
         believed, `start` how the needle comes out of the skin before an attempt, `beginnings` where
-        a simulated hand that a person moves begins; None for where scripts do; `rests` whether
-        robot and cameras are both simulated and may rest while nobody wants them.
+        a simulated hand that a person moves begins; None for where scripts do; `simulated` says that
+        robot and cameras both are: in the wall's time they rest while nobody wants them, and no
+        pause is a real camera's fault.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -122,12 +123,13 @@ class Trainer:
         self._sources = RobotAndCameras(loop, tracker, self._inputs, trust)
         longest = exercise.longest_hold
         self._breath = None if longest is None else BreathWatch(longest)
-        self._running = RunningAttempt(self.events)
+        self._running = RunningAttempt(self.events, simulated=simulated)
         self._withdrawal, self._beginnings = Withdrawal(self._inputs, start), beginnings
         self._latest: Latest[Snapshot] = Latest()
         real = isinstance(self._clock, SystemClock)
         self._standstill = Standstill() if real else Standstill(lambda: 0.0)
-        self.resting = Resting(rests, self._clock, self._needed, self._stop, self._start)
+        self._simulated = simulated
+        self.resting = Resting(simulated and real, self._clock, self._needed, self._stop, self._start)
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
         paced = self._clock if isinstance(self._clock, PacedClock) else None
@@ -613,6 +615,7 @@ class Trainer:
             roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
             touch=None if self._touching is None else self._touching.state,
             pause=self._running.pause_cause,
+            simulated=self._simulated,
         )
         self._latest.publish(snapshot, now)
         return snapshot
