@@ -1,4 +1,4 @@
-"""The real trainer on simulated robot and cameras: at rest it computes nothing, and it comes back."""
+"""The trainer on simulated robot and cameras: at rest it computes nothing, and it comes back."""
 
 import threading
 import time

@@ -1,4 +1,4 @@
-"""Simulated robot and cameras rest while nobody wants them, and run again before anybody is served."""
+"""Simulated robot and cameras rest while nobody wants them; whoever does is served by running ones."""
 
 import threading
 
