@@ -19,13 +19,13 @@ from app.session.result import AttemptResult
 from app.session.transitions import (
     DEFAULT,
     KIND,
-    paused_words,
     RESUMED_WORDS,
     Classifier,
     PauseCause,
     Pauses,
     Thresholds,
     classify,
+    paused_words,
 )
 from app.session.withdrawal import OutsideBy
 

@@ -100,11 +100,10 @@ class Trainer:
         `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
         `risks` are measured and recorded when an attempt ends, and by `tissues` what the needle
         met. `dial` is the assistance that every attempt begins with; None for the exercise's.
-        `trust` says how far a depth by the cameras is
-        believed, `start` how the needle comes out of the skin before an attempt, `beginnings` where
-        a simulated hand that a person moves begins; None for where scripts do; `simulated` says that
-        robot and cameras both are: in the wall's time they rest while nobody wants them, and no
-        pause is a real camera's fault.
+        `trust` says how far a depth by the cameras is believed, `start` how the needle comes out of
+        the skin before an attempt, `beginnings` where a simulated hand that a person moves begins;
+        None for where scripts do. `simulated` says that robot and cameras both are: in the wall's
+        time they rest while nobody wants them, and no pause is a real camera's fault.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -129,7 +128,9 @@ class Trainer:
         real = isinstance(self._clock, SystemClock)
         self._standstill = Standstill() if real else Standstill(lambda: 0.0)
         self._simulated = simulated
-        self.resting = Resting(simulated and real, self._clock, self._needed, self._stop, self._start)
+        self.resting = Resting(
+            simulated and real, self._clock, self._needed, self._stop, self._start
+        )
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
         paced = self._clock if isinstance(self._clock, PacedClock) else None

@@ -20,6 +20,7 @@ from PySide6.QtCore import QEventLoop, QTimer
 
 from app.compose.desktop import Desktop
 from app.session.result import AttemptResult
+from app.views.shell.collector import collect_for
 from tests.bench.window_load import Session, pump
 
 SECONDS, RESTS_AFTER = 15.0, 14.0
@@ -114,6 +115,7 @@ def main(tell: bool = False) -> None:
     with tempfile.TemporaryDirectory() as folder:
         session = Session(Desktop(seed=1, sessions=Path(folder)), offscreen=False)
         window = session.window
+        collect_for(window)
         pump(lambda: window.runs.is_prepared, 300.0)
         states: dict[str, Callable[[], object]] = {
             "start page": window.show_start,
@@ -122,7 +124,8 @@ def main(tell: bool = False) -> None:
         }
         for name, show in states.items():
             show()
-            pump(lambda: window.conductor.settled or name == "start page", 120.0)
+            if window.conductor.patient is not None:
+                pump(lambda: window.conductor.settled, 120.0)
             share(name, tell)
         window.show_workspace()
         result = attempt(session)

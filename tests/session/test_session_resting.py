@@ -1,4 +1,4 @@
-"""Simulated robot and cameras rest while nobody wants them; whoever does is served by running ones."""
+"""Simulated robot and cameras rest while nobody wants them, and run before anybody is served."""
 
 import threading
 
