@@ -29,6 +29,9 @@ PERIOD_MS: Final = 2000
 FULL_EVERY: Final = 15
 """One in so many collections is a full one."""
 
+TRIMS: Final = 10
+"""So many collections after something big was loaded also give freed memory back to the system."""
+
 _YOUNG, _ALL = 1, 2
 
 
@@ -45,6 +48,7 @@ class Collector(QObject):
         super().__init__(parent)
         self._busy = busy
         self._since_full, self._settled, self._left = 0, False, False
+        self._trims = 0
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.collect)
 
@@ -59,11 +63,16 @@ class Collector(QObject):
         gc.collect(_YOUNG)
         gc.freeze()
         self._settled = True
+        self.trim()
+
+    def trim(self) -> None:
+        """Give back for a while what loading something big leaves behind."""
+        self._trims = TRIMS
 
     @property
     def waits(self) -> bool:
-        """Return whether a patient has gone, and everything is still to be looked at."""
-        return self._left
+        """Return whether a patient has gone and not all that was his is given back yet."""
+        return self._left or self._trims > 0
 
     def leave(self) -> None:
         """Look at everything once nobody is kept waiting: a patient goes, with hundreds of MB."""
@@ -74,12 +83,15 @@ class Collector(QObject):
 
         Before anything has settled, everything is new and a full walk is as long as it can be.
         """
+        if self._trims and not self._busy():
+            self._trims -= 1
+            give_back()
         if self._left and not self._busy():
             self._left, self._since_full = False, 0
             gc.unfreeze()
             gc.collect(_ALL)
             gc.freeze()
-            give_back()
+            self.trim()
             return
         self._since_full += 1
         if self._settled and self._since_full >= FULL_EVERY and not self._busy():
@@ -108,5 +120,6 @@ def collect_for(window: MainWindow) -> Collector:
     collector = Collector(lambda: window.editor.locked or window.progress.count > 0, window)
     window.runs.ready.connect(lambda _: collector.settle())
     window.conductor.patient_left.connect(collector.leave)
+    window.conductor.patient_changed.connect(collector.trim)
     collector.open()
     return collector
