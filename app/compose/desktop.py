@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
     from app.tracking.cameras.settings import CameraSettings
+    from app.tracking.inspection import Inspection
     from app.tracking.needle_tracker import StereoAbilities
     from app.views.cameras.live import ShownCamera
     from app.views.exercise.run import ExerciseRun
@@ -317,7 +318,7 @@ class DesktopRun:
             depth_tolerance=depth_tolerance_of(setup.exercise),
             touches=setup.exercise.touch is not None,
             breathes="breathing" in setup.exercise.effects and source is None,
-            inspect=tracker.inspect,
+            inspect=self._inspect,
             touched=None if tracker.stereo is None else tracker.stereo.touched,
             learn_colour=_learner(tracker.stereo, setup.cameras),
             board=None if robot is None else robot.link.info(),
@@ -330,7 +331,13 @@ class DesktopRun:
             guidance=setup.exercise.guidance,
             shown=Shown.of_exercise(setup.exercise),
             demonstrates=self._passing is not None,
+            resting=self._rig.trainer.resting,
         )
+
+    def _inspect(self, masks: bool, lines: bool) -> Inspection:
+        """Return the newest pictures; whoever looks at them keeps the cameras going."""
+        self._rig.trainer.resting.want()
+        return self._rig.tracker.inspect(masks, lines)
 
     @property
     def exercise(self) -> Exercise:

@@ -304,6 +304,7 @@ def _build_rig(
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
         start=Start.SIMULATED if robot is None else Start.REAL,
         beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
+        simulated=robot is None and real is None,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 

@@ -19,13 +19,13 @@ from app.session.result import AttemptResult
 from app.session.transitions import (
     DEFAULT,
     KIND,
-    PAUSED_WORDS,
     RESUMED_WORDS,
     Classifier,
     PauseCause,
     Pauses,
     Thresholds,
     classify,
+    paused_words,
 )
 from app.session.withdrawal import OutsideBy
 
@@ -85,11 +85,14 @@ class RunningAttempt:
         events: for the window.
     """
 
-    def __init__(self, events: EventQueue, thresholds: Thresholds = DEFAULT) -> None:
+    def __init__(
+        self, events: EventQueue, thresholds: Thresholds = DEFAULT, simulated: bool = False
+    ) -> None:
+        """Begin idle; `simulated`: whether the cameras are, which show whatever there is to see."""
         self.attempt = Attempt()
         self.log: AttemptLog | None = None
         self.events = events
-        self._thresholds = thresholds
+        self._thresholds, self._simulated = thresholds, simulated
         self._classifier = Classifier()
         self._depth = DepthLoss()
         self._pauses = Pauses()
@@ -113,7 +116,7 @@ class RunningAttempt:
     def pause_words(self) -> str:
         """Return why the attempt waits; empty if it does not."""
         cause = self.pause_cause
-        return "" if cause is None else PAUSED_WORDS[cause]
+        return "" if cause is None else paused_words(cause, self._simulated)
 
     @property
     def pause_cause(self) -> PauseCause | None:
@@ -191,7 +194,12 @@ class RunningAttempt:
         )
         silence = inputs.silence(seen.time)
         pause = self._pauses.judge(
-            attempt.state, seen.pose, seen.fix_status, silence, simulated and seen.swings, simulated
+            attempt.state,
+            seen.pose,
+            seen.fix_status,
+            silence,
+            simulated and seen.swings,
+            self._simulated,
         )
         event = pause or event
         if event is not None:
@@ -273,7 +281,7 @@ class RunningAttempt:
         paused, cause = self.paused, self._pauses.cause or PauseCause.CAMERAS
         self._advance(event, now)
         if self.paused:
-            self._tell_pause(PAUSED_WORDS[cause], now, over=False)
+            self._tell_pause(paused_words(cause, self._simulated), now, over=False)
         elif paused:
             self._classifier = Classifier()
             self._tell_pause(RESUMED_WORDS[cause], now, over=True)

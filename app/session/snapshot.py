@@ -81,6 +81,7 @@ class Snapshot:
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
         touch: how the attempt stands with its targets; None where there is nothing to touch.
         pause: why the attempt waits; None while it does not.
+        simulated: whether robot and cameras both are: nobody can show them a marker.
     """
 
     time: float
@@ -110,6 +111,7 @@ class Snapshot:
     roll: float | None = None
     touch: TouchState | None = None
     pause: PauseCause | None = None
+    simulated: bool = False
 
     def at_rest(self, placed: PlacedPlan) -> PlacedPlan:
         """Return the plan whose target is the present one where it rests.
@@ -274,6 +276,13 @@ SECOND_SIDE: Final = 0.4
 """A side is named beside another where the way towards it is this share of the other's."""
 
 
+def _see(snapshot: Snapshot) -> NextStep:
+    """Have the marker shown to the cameras; where robot and cameras are simulated, wait."""
+    if snapshot.simulated:
+        return NextStep(StepKind.WAIT, pause=snapshot.pause)
+    return NextStep(StepKind.SEE)
+
+
 class NextSteps:
     """Says at every moment what comes next, by what the program knows and may tell."""
 
@@ -312,7 +321,7 @@ class NextSteps:
         if not live:
             return NextStep(StepKind.SCAN)
         if snapshot.state is State.PAUSED or not snapshot.pose.valid:
-            return NextStep(StepKind.SEE)
+            return _see(snapshot)
         offset, pose = snapshot.offset, snapshot.pose
         if snapshot.touch is not None:
             return self._to_touch(snapshot, snapshot.touch)
@@ -348,7 +357,7 @@ class NextSteps:
         if touch.done:
             return NextStep(StepKind.FINISH, touch=touch)
         if not pose.measured:
-            return NextStep(StepKind.SEE if pose.depth > 0.0 else StepKind.FEEL)
+            return _see(snapshot) if pose.depth > 0.0 else NextStep(StepKind.FEEL)
         if hypot(offset.lateral, offset.remaining) <= touch.task.radius:
             return NextStep(StepKind.STAY, touch=touch)
         if pose.depth <= 0.0:

@@ -41,6 +41,10 @@ class Standstill:
         self._tick = 0
         self._slept = 0.0
 
+    def forget(self) -> None:
+        """Begin anew: nothing was to tick until now."""
+        self._now = None
+
     def before(self, now: float, tick: int) -> float:
         """Return for how long everything stood still before this tick [s]; 0 if it did not.
 

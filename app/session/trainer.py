@@ -28,6 +28,7 @@ from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
+from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk
 from app.session.running import RunningAttempt
@@ -70,6 +71,7 @@ class Trainer:
         events: for the window to drain: `state`, `abort`, `scan`, `breath`, `touch`, `recorder`,
             and the tracker's.
         result: of the attempt that finished last; None before the first.
+        resting: by which simulated robot and cameras rest while nobody wants them.
     """
 
     def __init__(
@@ -89,6 +91,7 @@ class Trainer:
         trust: DepthTrust = TRUST,
         start: Start = Start.ANYWHERE,
         beginnings: Beginnings | None = None,
+        simulated: bool = False,
     ) -> None:
         """Keep the parts.
 
@@ -97,9 +100,10 @@ class Trainer:
         `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
         `risks` are measured and recorded when an attempt ends, and by `tissues` what the needle
         met. `dial` is the assistance that every attempt begins with; None for the exercise's.
-        `trust` says how far a depth by the cameras is
-        believed, `start` how the needle comes out of the skin before an attempt, `beginnings` where
-        a simulated hand that a person moves begins; None for where scripts do.
+        `trust` says how far a depth by the cameras is believed, `start` how the needle comes out of
+        the skin before an attempt, `beginnings` where a simulated hand that a person moves begins;
+        None for where scripts do. `simulated` says that robot and cameras both are: in the wall's
+        time they rest while nobody wants them, and no pause is a real camera's fault.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -118,11 +122,15 @@ class Trainer:
         self._sources = RobotAndCameras(loop, tracker, self._inputs, trust)
         longest = exercise.longest_hold
         self._breath = None if longest is None else BreathWatch(longest)
-        self._running = RunningAttempt(self.events)
+        self._running = RunningAttempt(self.events, simulated=simulated)
         self._withdrawal, self._beginnings = Withdrawal(self._inputs, start), beginnings
         self._latest: Latest[Snapshot] = Latest()
         real = isinstance(self._clock, SystemClock)
         self._standstill = Standstill() if real else Standstill(lambda: 0.0)
+        self._simulated = simulated
+        self.resting = Resting(
+            simulated and real, self._clock, self._needed, self._stop, self._start
+        )
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
         paced = self._clock if isinstance(self._clock, PacedClock) else None
@@ -149,6 +157,7 @@ class Trainer:
 
     def close(self) -> None:
         """Abort a running attempt, stop everything at zero force; idempotent."""
+        self.resting.end()
         if self._paced is not None:
             self._paced.stop()  # nobody waits any more for whoever holds time
         if self._ticker is not None:
@@ -157,6 +166,30 @@ class Trainer:
         self._ticker = None
         self.disarm()
         self._sources.close()
+
+    def _needed(self) -> bool:
+        """Return whether robot and cameras may not rest now."""
+        with self._lock:
+            started = self._ticker is not None and not self._ticker.failed
+            return self._running.attempt.running or not started
+
+    def _stop(self) -> None:
+        """Let robot and cameras rest; what was published last stays."""
+        if self._ticker is not None:
+            self._ticker.close()
+        self._sources.close()
+
+    def _start(self) -> None:
+        """Go on after a rest, which is no standstill of the computer."""
+        self._standstill.forget()
+        self.heartbeat()
+        try:
+            self._sources.open()
+        except BaseException:
+            self._sources.close()
+            raise
+        if self._ticker is not None:
+            self._ticker.open()
 
     def step(self, ticks: int = 20) -> Snapshot:
         """Let virtual time pass: `ticks` of the loop, the simulated cameras, then one tick."""
@@ -190,7 +223,7 @@ class Trainer:
                 the ticker has ended with a fault of the program, or the device is not cleared.
             SessionError: for an unknown hand.
         """
-        with self._lock:
+        with self.resting.awake(), self._lock:
             self._running.require_idle("an attempt cannot begin")
             if self._ticker is not None:
                 self._sources.require_ticks(self._ticker.failed)
@@ -273,6 +306,7 @@ class Trainer:
 
         It obeys nobody while it brings the needle out before an attempt.
         """
+        self.resting.want()
         if not self._withdrawal.moves_hand:
             self._inputs.hand(x, y, depth, holds)
             self._withdrawal.follow(x, y, depth)
@@ -336,6 +370,7 @@ class Trainer:
         Raises:
             NumericalError: if it is not a number.
         """
+        self.resting.want()
         self._inputs.roll(self._inputs.rolled + step)
 
     def assistance(self, value: float) -> None:
@@ -353,6 +388,7 @@ class Trainer:
                     dial=self._dial,
                 )
             )
+        self.resting.want()
         self._inputs.assist(value)
 
     def compute_by(
@@ -384,7 +420,7 @@ class Trainer:
                     exercise_id=self._exercise.id,
                 )
             )
-        with self._lock:
+        with self.resting.awake(), self._lock:
             choice = ModelChoice(change(self._loop), effect, model)
             self._exercise, self._context = exercise, answer(self._context)
             self._running.say(KIND, choice.words(), self._clock.now(), choice.data())
@@ -403,6 +439,7 @@ class Trainer:
                     exercise_id=self._exercise.id,
                 )
             )
+        self.resting.want()
         self._inputs.hold_breath(held)
 
     @property
@@ -428,7 +465,7 @@ class Trainer:
         Raises:
             IllegalTransitionError: if an attempt is running.
         """
-        with self._lock:
+        with self.resting.awake(), self._lock:
             self._running.require_idle("the plan cannot change")
             self._touching = self._to_touch(placed)
             self._placed = placed
@@ -579,6 +616,7 @@ class Trainer:
             roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
             touch=None if self._touching is None else self._touching.state,
             pause=self._running.pause_cause,
+            simulated=self._simulated,
         )
         self._latest.publish(snapshot, now)
         return snapshot

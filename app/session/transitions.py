@@ -146,6 +146,10 @@ BACK: Final = 0.5
 """Time for which the cause must be gone until it goes on [s]."""
 
 
+UNSEEN: Final = frozenset({FixStatus.OUT_OF_VIEW, FixStatus.ONE_CAMERA, FixStatus.INCONSISTENT})
+"""What is said of pictures that came in time and do not show the marker as it should be."""
+
+
 class PauseCause(StrEnum):
     """Why an attempt waits."""
 
@@ -174,6 +178,17 @@ PAUSED_WORDS: Final = {
         "cut; the clock stands still and the attempt goes on by itself"
     ),
 }
+_UNSEEN_WORDS: Final = sentence(
+    "paused: the simulated cameras do not see the needle where it is; forces are off and the clock "
+    "stands still; move it back a little"
+)
+
+
+def paused_words(cause: PauseCause, simulated: bool = False) -> str:
+    """Say why an attempt waits; nobody can show a marker to `simulated` cameras."""
+    return _UNSEEN_WORDS if simulated and cause is PauseCause.CAMERAS else PAUSED_WORDS[cause]
+
+
 RESUMED_WORDS: Final = {
     PauseCause.CAMERAS: sentence(
         "the cameras see the marker again: the attempt goes on, forces come back; a switch that "
@@ -239,7 +254,7 @@ class Pauses:
         A pose that is not valid is the robot's trouble, and no reason to blame the cameras.
         `silence`: since the window's last sign of life [s]; `swings`: whether the force was cut
         though the simulated hand holds the needle. `simulated` cameras always deliver: pictures
-        that do not come are the computer's trouble.
+        that do not come, or show the needle as it was too long ago, are the computer's trouble.
         """
         now = pose.time
         blamed = pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE
@@ -260,7 +275,7 @@ class Pauses:
                 if there:
                     return self._pause(cause, inside, now)
         if inside and cameras.lasts(now, LOST):
-            late = simulated and fix_status == FixStatus.NO_PICTURE
+            late = simulated and fix_status not in UNSEEN
             cause = PauseCause.COMPUTER if late else PauseCause.CAMERAS
             return self._pause(cause, inside, now)
         return None

@@ -12250,6 +12250,14 @@ frei wählbar</translation>
             <translation type="unfinished">Tiefe</translation>
         </message>
         <message>
+            <source>This computer is busy: the 3D view stands still.</source>
+            <translation type="unfinished">Dieser Computer ist ausgelastet: Die 3D-Ansicht steht still.</translation>
+        </message>
+        <message>
+            <source>This computer is busy: pictures come less often.</source>
+            <translation type="unfinished">Dieser Computer ist ausgelastet: Bilder kommen seltener.</translation>
+        </message>
+        <message>
             <source>Tip beyond the entry, along the needle; ◇ when it is not measured now</source>
             <translation type="unfinished">Spitze hinter dem Einstichpunkt, entlang der Nadel; ◇, wenn jetzt nicht gemessen</translation>
         </message>
@@ -12470,6 +12478,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Robot stopped: {why}</source>
             <translation type="unfinished">Roboter angehalten: {why}</translation>
+        </message>
+        <message>
+            <source>Rate of the tracker, share of pictures in which both cameras saw the marker, age of the last such fix. The cameras are simulated: this computer draws what they see. Where their pictures come late, close other programs.</source>
+            <translation type="unfinished">Rate des Trackers, Anteil der Bilder, auf denen beide Kameras den Marker sahen, Alter der letzten solchen Messung. Die Kameras sind simuliert: Dieser Computer zeichnet, was sie sehen. Kommen ihre Bilder zu spät, schließen Sie andere Programme.</translation>
+        </message>
+        <message>
+            <source>pictures come late: this computer is busy</source>
+            <translation type="unfinished">Bilder kommen zu spät: Dieser Computer ist ausgelastet</translation>
         </message>
         <message>
             <source>see the marker now and then</source>
@@ -12750,6 +12766,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Paused: the needle swings in the simulated hand; it goes on by itself.</source>
             <translation type="unfinished">Pause: Die Nadel schwingt in der simulierten Hand; es geht von selbst weiter.</translation>
+        </message>
+        <message>
+            <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
+            <translation type="unfinished">Pause: Die simulierten Kameras sehen die Nadel dort nicht. Bewegen Sie sie ein wenig zurück.</translation>
+        </message>
+        <message>
+            <source>One moment: nothing has told for an instant where the needle is.</source>
+            <translation type="unfinished">Einen Moment: Eben war nicht bekannt, wo die Nadel ist.</translation>
         </message>
         <message>
             <source>Paused: this computer is too busy. Close other programs; it goes on by itself.</source>
@@ -17664,6 +17688,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>paused: the needle swung in the simulated hand as if nobody held it, so its force was cut; the clock stands still and the attempt goes on by itself</source>
             <translation type="unfinished">Pause: Die Nadel schwang in der simulierten Hand, als hielte sie niemand; deshalb wurde ihre Kraft abgeschaltet; die Uhr steht und der Versuch geht von selbst weiter</translation>
+        </message>
+        <message>
+            <source>paused: the simulated cameras do not see the needle where it is; forces are off and the clock stands still; move it back a little</source>
+            <translation type="unfinished">Pause: Die simulierten Kameras sehen die Nadel dort nicht; die Kräfte sind aus und die Uhr steht; bewegen Sie sie ein wenig zurück</translation>
         </message>
         <message>
             <source>the cameras see the marker again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>

@@ -12250,6 +12250,14 @@ réglable</translation>
             <translation type="unfinished">Profondeur</translation>
         </message>
         <message>
+            <source>This computer is busy: the 3D view stands still.</source>
+            <translation type="unfinished">Cet ordinateur est occupé : la vue 3D est figée.</translation>
+        </message>
+        <message>
+            <source>This computer is busy: pictures come less often.</source>
+            <translation type="unfinished">Cet ordinateur est occupé : les images viennent moins souvent.</translation>
+        </message>
+        <message>
             <source>Tip beyond the entry, along the needle; ◇ when it is not measured now</source>
             <translation type="unfinished">Pointe au-delà du point d’entrée, le long de l’aiguille ; ◇ quand elle n’est pas mesurée</translation>
         </message>
@@ -12470,6 +12478,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Robot stopped: {why}</source>
             <translation type="unfinished">Robot arrêté : {why}</translation>
+        </message>
+        <message>
+            <source>Rate of the tracker, share of pictures in which both cameras saw the marker, age of the last such fix. The cameras are simulated: this computer draws what they see. Where their pictures come late, close other programs.</source>
+            <translation type="unfinished">Cadence du suivi, part des images où les deux caméras ont vu le marqueur, âge de la dernière mesure de ce genre. Les caméras sont simulées : cet ordinateur dessine ce qu’elles voient. Si leurs images arrivent en retard, fermez d’autres programmes.</translation>
+        </message>
+        <message>
+            <source>pictures come late: this computer is busy</source>
+            <translation type="unfinished">les images arrivent en retard : cet ordinateur est occupé</translation>
         </message>
         <message>
             <source>see the marker now and then</source>
@@ -12750,6 +12766,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Paused: the needle swings in the simulated hand; it goes on by itself.</source>
             <translation type="unfinished">En pause : l’aiguille oscille dans la main simulée ; l’essai reprend de lui-même.</translation>
+        </message>
+        <message>
+            <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
+            <translation type="unfinished">En pause : les caméras simulées ne voient pas l’aiguille à cet endroit. Ramenez-la un peu en arrière.</translation>
+        </message>
+        <message>
+            <source>One moment: nothing has told for an instant where the needle is.</source>
+            <translation type="unfinished">Un instant : la position de l’aiguille vient d’être perdue un moment.</translation>
         </message>
         <message>
             <source>Paused: this computer is too busy. Close other programs; it goes on by itself.</source>
@@ -17664,6 +17688,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>paused: the needle swung in the simulated hand as if nobody held it, so its force was cut; the clock stands still and the attempt goes on by itself</source>
             <translation type="unfinished">Pause : l’aiguille oscillait dans la main simulée comme si personne ne la tenait, sa force a donc été coupée ; le chronomètre est arrêté et l’essai reprend de lui-même</translation>
+        </message>
+        <message>
+            <source>paused: the simulated cameras do not see the needle where it is; forces are off and the clock stands still; move it back a little</source>
+            <translation type="unfinished">Pause : les caméras simulées ne voient pas l’aiguille là où elle est ; les forces sont coupées et le chronomètre est arrêté ; ramenez-la un peu en arrière</translation>
         </message>
         <message>
             <source>the cameras see the marker again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>

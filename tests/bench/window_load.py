@@ -1,10 +1,7 @@
 """The real window, off-screen, for benchmarks: opened, running an exercise, under load."""
 
-import os
 import time
 from collections.abc import Callable
-
-os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
@@ -28,11 +25,16 @@ def pump(until: Callable[[], bool], limit: float) -> bool:
 
 
 class Session:
-    """A window with an exercise in it."""
+    """A window with an exercise in it.
 
-    def __init__(self) -> None:
-        self.application = start(offscreen=True)
-        self.window = MainWindow(Desktop(skill="expert", seed=1))
+    Args:
+        services: what the window asks for; by default with a scripted hand.
+        offscreen: draw into memory, without a display.
+    """
+
+    def __init__(self, services: Desktop | None = None, offscreen: bool = True) -> None:
+        self.application = start(offscreen)
+        self.window = MainWindow(services or Desktop(skill="expert", seed=1))
         self.window.resize(1400, 900)
         self.window.show()
         pump(self.window.isVisible, 5.0)

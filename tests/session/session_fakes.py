@@ -169,6 +169,8 @@ class FakeTracker:
     events: EventQueue = field(default_factory=EventQueue)
     opened: int = 0
     seen: float = -1.0
+    every: float = 1.0 / 30.0
+    late: float = 0.0
 
     def open(self) -> None:
         self.opened += 1
@@ -180,9 +182,10 @@ class FakeTracker:
         return {"rate_hz": 30.0}
 
     def advance(self, now: float) -> None:
-        if now - self.seen >= 1.0 / 30.0 - 1e-9:
+        if now - self.seen >= self.every - 1e-9:
             self.seen = now
-            self.latest.publish(FakeFix(self.loop.latest().tip, now, self.status), now)
+            fix = FakeFix(self.loop.latest().tip, now - self.late, self.status)
+            self.latest.publish(fix, now)
 
 
 @dataclass
@@ -193,6 +196,7 @@ class Bench:
     clock: VirtualClock = field(default_factory=lambda: VirtualClock(100.0))
     placed: PlacedPlan = field(default_factory=placed_plan)
     drill: Any = None
+    simulated: bool = False
 
     def __post_init__(self) -> None:
         self.loop = FakeLoop(self.clock)
@@ -214,6 +218,7 @@ class Bench:
             self.context,
             clock=self.clock,
             advance=self.tracker.advance,
+            simulated=self.simulated,
         )
 
     def run(

@@ -37,6 +37,7 @@ class Moment:
     device: object = None
     pause: object = None
     ready: bool = False
+    simulated: bool = False
 
 
 def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=True, p_target=None):
@@ -164,6 +165,16 @@ def test_only_a_pause_for_the_cameras_asks_for_the_marker(cause, live):
         assert (step.kind, step.pause) == (StepKind.SEE if live else StepKind.SCAN, None)
     else:
         assert (step.kind, step.pause) == (StepKind.WAIT, cause)
+
+
+@pytest.mark.parametrize("cause", list(PauseCause))
+def test_nobody_is_asked_to_show_a_marker_to_simulated_cameras(cause):
+    plan = placed()
+    paused = replace(moment(plan, 0.03, state=State.PAUSED, measured=False), pause=cause)
+    step = steps(plan).of(replace(paused, simulated=True))
+    assert (step.kind, step.pause) == (StepKind.WAIT, cause)
+    silent = replace(moment(plan, 0.06, valid=False), simulated=True)
+    assert steps(plan).of(silent).kind is StepKind.WAIT
 
 
 def test_an_order_does_not_flicker_at_its_limit():

@@ -22,6 +22,7 @@ from app.session.transitions import (
     PauseCause,
     Pauses,
     excused,
+    paused_words,
     waited_for_computer,
 )
 from app.session.verify import verify
@@ -322,6 +323,9 @@ def test_the_window_sees_the_prediction_and_the_record_the_measurement(bench: Be
     ("simulated", "status", "cause"),
     [
         (True, "no_picture", PauseCause.COMPUTER),
+        (True, "valid", PauseCause.COMPUTER),  # seen, but too long ago whenever it is told
+        (True, "no_orientation", PauseCause.COMPUTER),
+        (False, "valid", PauseCause.CAMERAS),
         (True, "out_of_view", PauseCause.CAMERAS),
         (False, "no_picture", PauseCause.CAMERAS),
     ],
@@ -343,6 +347,33 @@ def test_pictures_of_simulated_cameras_that_do_not_come_are_the_computer_s_troub
         for k in range(40)
     ]
     assert AttemptEvent.RESUME in seen
+
+
+def test_no_pause_with_simulated_cameras_asks_for_a_marker_or_for_light() -> None:
+    for cause in PauseCause:
+        words = paused_words(cause, simulated=True)
+        assert "show the marker" not in words
+        assert " light" not in words
+    assert "show the marker" in paused_words(PauseCause.CAMERAS)
+
+
+@pytest.mark.parametrize("every", [0.3, 0.45])
+def test_a_computer_that_draws_two_pictures_a_second_is_what_a_simulated_attempt_waits_for(
+    tmp_path: Path, every: float
+) -> None:
+    """Each picture is told as late as it is apart from the next: valid, and never new."""
+    bench = Bench(tmp_path, simulated=True)
+    bench.trainer.begin()
+    bench.run(0.5, -0.02)
+    bench.run(2.0, 0.03)
+    bench.tracker.every = bench.tracker.late = every
+    snapshot = bench.run(3.0)
+    told = [event for event in bench.trainer.events.drain() if event.kind == "pause"]
+    bench.trainer.close()
+    assert snapshot.state is State.PAUSED
+    assert snapshot.pause is PauseCause.COMPUTER
+    assert [event.data["cause"] for event in told] == ["computer"]
+    assert not any("marker" in message for message in (*snapshot.messages, told[0].message))
 
 
 def test_what_the_computer_could_not_do_is_named_in_the_conditions_and_excuses_nothing() -> None:

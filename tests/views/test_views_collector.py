@@ -5,6 +5,7 @@ import weakref
 from collections.abc import Iterator
 
 import pytest
+from PySide6.QtCore import QObject
 
 from app.core.progress import Progress
 from app.mechanisms.pantograph import kernels
@@ -13,7 +14,8 @@ from app.planning import patient
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.planning.reach import reach
-from app.views.shell.collector import FULL_EVERY, Collector
+from app.views.kit.background import run_in_background
+from app.views.shell.collector import FULL_EVERY, TRIMS, Collector, give_back
 
 
 @pytest.fixture
@@ -114,3 +116,51 @@ def test_reading_a_patient_loads_the_verdict_so_that_the_window_never_compiles(a
         reach(plan, Placement(orientation, (20.0, 0.0, 5.0)), load_profile("icube"))
     assert compiled == {name: len(vars(kernels)[name].signatures) for name in compiled}
     assert any(compiled.values())
+
+
+class Ct:
+    """Stands for a patient's hundreds of megabytes."""
+
+
+def test_a_circle_that_was_left_out_of_the_walk_goes_with_the_patient_it_holds(collector, busy):
+    class Circle:
+        pass
+
+    circle = Circle()
+    circle.itself, circle.ct = circle, Ct()
+    ct = weakref.ref(circle.ct)
+    gc.freeze()  # as when a robot was started
+    del circle
+    gc.collect()
+    assert ct() is not None
+    busy[0] = True
+    collector.leave()
+    collector.collect()
+    assert collector.waits
+    assert ct() is not None
+    busy[0] = False
+    collector.collect()
+    assert ct() is None
+    assert collector.waits  # until what is free is given back as well
+    for _ in range(TRIMS):
+        collector.collect()
+    assert not collector.waits
+
+
+def test_a_task_that_is_over_holds_nothing_of_what_it_brought(application, settle):
+    parent, brought = QObject(), []
+
+    def take(ct):
+        brought.append(weakref.ref(ct))
+
+    gc.disable()
+    run_in_background(parent, lambda _: Ct(), take, pytest.fail)
+    assert settle(lambda: brought)
+    assert settle(lambda: brought[0]() is None)
+    gc.enable()
+
+
+def test_freed_memory_is_given_back_without_an_error_on_every_system(monkeypatch):
+    give_back()
+    monkeypatch.setattr("sys.platform", "win32")
+    give_back()

@@ -372,6 +372,46 @@ def test_the_pane_shows_a_picture_of_its_own_size(view, settle):
     assert view.grab().width() == view.width()
 
 
+def test_a_view_in_which_nothing_changes_or_that_nobody_sees_is_not_looked_at(view, settle):
+    timer = view._feed._timer
+    assert settle(lambda: view.is_settled and not timer.isActive())
+    view.set_orbit(view.orbit.turned(40, 0))
+    assert timer.isActive()
+    view.hide()
+    assert settle(lambda: not timer.isActive())
+    view.set_orbit(view.orbit.turned(40, 0))
+    assert not timer.isActive()
+    old = view.picture()
+    view.show()
+    assert settle(lambda: view.is_settled and view.picture() != old and not timer.isActive())
+
+
+def test_a_view_that_stands_still_is_drawn_only_for_who_turns_it_and_goes_on_afterwards(
+    view, settle
+):
+    shots, request = [], view._feed._renderer.request
+
+    def count(shot):
+        shots.append(shot)
+        request(shot)
+
+    assert settle(lambda: view.is_settled)
+    view._feed._renderer.request = count
+    view.set_still(True)
+    assert view.is_settled
+    for _ in range(5):
+        view.set_needle(None)
+        settle(lambda: False, 0.1)
+    assert shots == []
+    view.set_orbit(view.orbit.turned(40, 0))
+    assert settle(lambda: shots)
+    assert settle(lambda: not view._feed._timer.isActive())
+    assert all(shot.moving for shot in shots)
+    view.set_still(False)
+    assert settle(lambda: view.is_settled)
+    assert not shots[-1].moving
+
+
 def test_mouse_and_keys_turn_pan_zoom_and_reset(view):
     home = view.orbit
     view.set_orbit(home.turned(40, 0))

@@ -4,6 +4,7 @@ import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 sys.path.insert(0, str(Path(__file__).parent))
@@ -12,6 +13,15 @@ import pytest
 from modal_dialogs import forbid
 from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication
+from views_exercise_fakes import FakeTrainer, run
+
+from app.core.clock import VirtualClock
+from app.views.exercise.axial_gauge import AxialGauge
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.controller import ExerciseController, ExerciseViews
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.status import MessageList, StatusStrip
+from app.views.exercise.tracker_panel import TrackerPanel
 
 
 @pytest.fixture(autouse=True)
@@ -37,3 +47,19 @@ def widgets_go_with_their_test(qt: QApplication) -> Iterator[None]:
     """
     yield
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+@pytest.fixture
+def desk(qt: QApplication) -> Iterator[SimpleNamespace]:
+    """A controller with its views and a fake trainer, in virtual time, read at by hand."""
+    views = ExerciseViews(
+        Bullseye(), ExercisePanel(), StatusStrip(), TrackerPanel(), MessageList(), AxialGauge()
+    )  # fmt: skip
+    controller = ExerciseController(views, VirtualClock(10.0))
+    trainer = FakeTrainer()
+    controller.attach(run(trainer))
+    controller._timer.stop()  # read at by hand
+    yield SimpleNamespace(controller=controller, views=views, trainer=trainer)
+    controller.detach()
+    for name in ExerciseViews.__slots__:
+        getattr(views, name).deleteLater()

@@ -8,9 +8,8 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from views_exercise_attempts import placed_plan
-from views_exercise_fakes import FakeTrainer, pose, run, snapshot
+from views_exercise_fakes import pose, run, snapshot
 
-from app.core.clock import VirtualClock
 from app.core.rate_meter import RateMeter
 from app.device.errors import LoopError
 from app.session.errors import IllegalTransitionError
@@ -18,29 +17,10 @@ from app.session.machine import State
 from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.markers.extractor import MarkerFix
 from app.tracking.tracked_picture import TrackedPicture
-from app.views.exercise.axial_gauge import AxialGauge
-from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.camera_view import CameraView
-from app.views.exercise.controller import ExerciseController, ExerciseViews
-from app.views.exercise.panel import ExercisePanel
-from app.views.exercise.status import LONGEST, MessageList, StatusStrip
+from app.views.exercise.status import LONGEST, MessageList
 from app.views.exercise.status_items import tracker_item
 from app.views.exercise.tracker_panel import TrackerFigures, TrackerPanel
-
-
-@pytest.fixture
-def desk(qt):
-    views = ExerciseViews(
-        Bullseye(), ExercisePanel(), StatusStrip(), TrackerPanel(), MessageList(), AxialGauge()
-    )  # fmt: skip
-    controller = ExerciseController(views, VirtualClock(10.0))
-    trainer = FakeTrainer()
-    controller.attach(run(trainer))
-    controller._timer.stop()  # read at by hand
-    yield SimpleNamespace(controller=controller, views=views, trainer=trainer)
-    controller.detach()
-    for name in ExerciseViews.__slots__:
-        getattr(views, name).deleteLater()
 
 
 def until(holds, seconds=30.0):

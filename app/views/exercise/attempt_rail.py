@@ -228,9 +228,9 @@ class AttemptRail(QWidget):
         self.pictures = _quiet()
         self.panel = _quiet()
         self._place = QVBoxLayout()
-        self._note, self._health = PlainLabel(self), PlainLabel(self)
+        self._note, self._health, self._busy = (PlainLabel(self) for _ in range(3))
         self._lay_out()
-        for part in (self._health, self.pictures, self.drill):
+        for part in (self._health, self._busy, self.pictures, self.drill):
             part.hide()
         self.pictures.clicked.connect(self.pictures_wanted)
         self.panel.clicked.connect(self.panel_wanted)
@@ -266,6 +266,19 @@ class AttemptRail(QWidget):
             self._health.setToolTip(literal(worst[0].help) if worst else "")
             self._health.setVisible(bool(words))
 
+    def set_busy(self, busy: bool, has_scene: bool = True) -> None:
+        """Say quietly that less is drawn because the computer is busy, or no more.
+
+        `has_scene`: whether there is a 3D view to be seen.
+        """
+        if busy:
+            self._busy.setText(
+                tr("This computer is busy: the 3D view stands still.")
+                if has_scene
+                else tr("This computer is busy: pictures come less often.")
+            )
+        self._busy.setVisible(busy)
+
     def set_drill(self, words: str) -> None:
         """Name the drill that is done, above all else; empty where none is."""
         self.drill.set_whole(words)
@@ -294,6 +307,9 @@ class AttemptRail(QWidget):
         column.addStretch(1)
         self._health.setWordWrap(True)
         column.addWidget(self._health)
+        self._busy.setWordWrap(True)
+        self._busy.setProperty("role", "dim")
+        column.addWidget(self._busy)
         column.addWidget(self.panel)
         self._note.setWordWrap(True)
         self._note.setProperty("role", "dim")

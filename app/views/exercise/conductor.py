@@ -202,7 +202,18 @@ class Conductor(QObject):
         self._surfaces = SurfaceExtraction(workspace.scene, self)
         self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
         self.scans = ScanSource(self.controller, workspace, lambda: self.patient, self)
+        self.controller.rester.seen = self._is_seen
         self._connect()
+
+    def _lighten(self, light: bool) -> None:
+        """Let the 3D view stand still on a computer that is too busy, and say so; or go on."""
+        scene = self._workspace.scene
+        scene.set_still(light)
+        self._workspace.rail.set_busy(light, scene.isVisible() and not scene.off)
+
+    def _is_seen(self) -> bool:
+        """Return whether the views of the exercise may be seen."""
+        return self._workspace.isVisible() and not self._workspace.window().isMinimized()
 
     def _connect(self) -> None:
         viewing, scene = self._workspace.viewing, self._workspace.scene
@@ -222,6 +233,7 @@ class Conductor(QObject):
         self.controller.ending.connect(self._workspace.exercise_panel.buttons.set_ending)
         self.controller.beginning.connect(self._as_the_exercise_says)
         self.controller.began.connect(lambda _: self._begin_attempt())
+        self.controller.burdened.connect(self._lighten)
         self.controller.attached.connect(self._workspace.room.end)
         self.patient_changed.connect(self._workspace.scan_view.clear)
         self.scans.failed.connect(self.failed)

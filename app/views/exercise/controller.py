@@ -23,6 +23,7 @@ from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
 from app.views.exercise.axial_gauge import AxialGauge, axial_force, bone_crossed_mm
 from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.busy import BusyWatch, Load
 from app.views.exercise.enable_switch import enabling
 from app.views.exercise.energy_gauge import energy_figures
 from app.views.exercise.felt import force_limit
@@ -33,6 +34,7 @@ from app.views.exercise.readings import (
     status_items,
     tracker_figures,
 )
+from app.views.exercise.resting import Rester
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import MessageList, StatusStrip
 from app.views.exercise.status_items import MISSED_WINDOW
@@ -203,6 +205,12 @@ __all__ = ["PERIOD_MS", "ExerciseController", "ExerciseViews"]
 PERIOD_MS: Final = 16
 """The window polls the trainer this often: 60 Hz, as screens do."""
 
+LIGHT_MS: Final = 33
+"""And so often where the computer is too busy."""
+
+REST_MS: Final = 100
+"""So often while robot and cameras rest, to see whether they still do."""
+
 
 class ExerciseController(QObject):
     """Feeds the exercise's widgets from a trainer, and the trainer from them.
@@ -216,6 +224,7 @@ class ExerciseController(QObject):
         ending(on: bool): an attempt that was ended is being scored and written, or is so no more.
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
+        burdened(bool): the computer is too busy to draw everything in an attempt, or is no more.
         demonstrated(): what was only shown is over: nobody's attempt, of which nothing follows.
         failed(str): something that the user asked for did not work, in one line.
         worked(): something that the user asked for did.
@@ -223,6 +232,7 @@ class ExerciseController(QObject):
     Attributes:
         refusal: says why who is here may not begin this exercise; empty if nothing speaks against.
         intercepted: asked when somebody wants to begin: whether something else comes first.
+        rester: lets simulated robot and cameras rest, and this look at them less meanwhile.
     """
 
     needle_moved = Signal(object)
@@ -233,6 +243,7 @@ class ExerciseController(QObject):
     ending = Signal(bool)
     began = Signal(str)
     finished = Signal(object)
+    burdened = Signal(bool)
     demonstrated = Signal()
     failed = Signal(str)
     worked = Signal()
@@ -252,6 +263,10 @@ class ExerciseController(QObject):
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.poll)
+        self._busy, self._load = BusyWatch(), Load.FULL
+        self.rester = Rester(self)
+        self.rester.changed.connect(self._take_rest)
+        self.rester.failed.connect(lambda error: self._fail(translated(error)))
         self._connect()
 
     # --- life -------------------------------------------------------------------------------------
@@ -266,12 +281,15 @@ class ExerciseController(QObject):
         self._views.panel.enable.set_wanted(run.held_arming)
         self._views.panel.energy.begin(run.is_real)
         self._views.panel.set_assistance(run.trainer.snapshot().assistance)
-        self._timer.start()
+        self.rester.begin(run)
+        self._timer.start(PERIOD_MS)
         self.attached.emit()
 
     def detach(self) -> None:
         """Let go of the trainer, without closing it; idempotent."""
         self._timer.stop()
+        self._weigh(False, self._clock.now(), 0.0)
+        self.rester.begin(None)
         self._views.panel.enable.set_wanted(False)  # lets go before the trainer is gone
         self._run, self._ending, self._quiet = None, False, False
         self._views.bullseye.set_scene(None, False)
@@ -350,6 +368,9 @@ class ExerciseController(QObject):
         if self._unreadable:
             self._unreadable = ""
             self.worked.emit()
+        if self.rester.rests(snapshot, now):
+            return
+        self._weigh(snapshot.state in RUNNING, now, late)
         self._drain(run)
         self._display.take_hand(snapshot)
         # Nobody beyond this line knows more than may be told.
@@ -360,6 +381,25 @@ class ExerciseController(QObject):
         if shown.pose.valid:
             self.needle_moved.emit(shown.pose)
         self._take_result(run)
+
+    def _weigh(self, runs: bool, now: float, passed: float) -> None:
+        """Draw less in an attempt whose looks come late; everything where none runs."""
+        if not runs:
+            self._busy.begin()
+        else:
+            self._busy.note(now, passed, 1e-3 * self._timer.interval())
+        if self._busy.load is not self._load:
+            self._load = self._busy.load
+            light = self._load is Load.LIGHT
+            self._timer.setInterval(LIGHT_MS if light else PERIOD_MS)
+            self.burdened.emit(light)
+
+    def _take_rest(self, rests: bool) -> None:
+        """Look seldom while robot and cameras rest: what is shown stays as it is."""
+        self._timer.setInterval(REST_MS if rests else PERIOD_MS)
+        if not rests:
+            self._beat = self._clock.now()
+            self._display.begin()  # no rate spans a rest
 
     def _tell_unreadable(self, reason: str) -> None:
         """Say once why there is no snapshot; the next poll tries again."""
@@ -397,6 +437,7 @@ class ExerciseController(QObject):
             return
         if not (run.demonstrates or self._led_as) and self.intercepted():
             return
+        self.rester.stir()
         self.beginning.emit()
         self._views.messages.clear()
         self._views.messages.start_clock(run.trainer.snapshot().time)

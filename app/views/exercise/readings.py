@@ -113,7 +113,9 @@ def tracker_status(snapshot: Snapshot) -> StatusItem:
     if statistics is None:
         return no_cameras_item()
     age = inf if statistics.age is None else statistics.age
-    return tracker_item(statistics.rate, statistics.valid_share, age, problem(statistics))
+    return tracker_item(
+        statistics.rate, statistics.valid_share, age, problem(statistics), snapshot.simulated
+    )
 
 
 def tracker_figures(snapshot: Snapshot) -> TrackerFigures:

@@ -16,6 +16,7 @@ from app.session.shown_views import Shown
 if TYPE_CHECKING:
     from app.device.links.link import BoardInfo
     from app.device.readiness import ForceClearance, Readiness
+    from app.session.resting import Resting
     from app.session.trainer import Trainer
     from app.tracking.inspection import Inspection
 
@@ -51,6 +52,7 @@ class ExerciseRun:
         demonstrates: whether a scripted expert shows the exercise: it is nobody's attempt.
         touches: whether targets are to be touched with a tool whose handle the hand moves.
         breathes: whether the exercise has a patient who breathes, and something computes it.
+        resting: by which simulated robot and cameras rest; None where they never do.
     """
 
     trainer: Trainer
@@ -74,6 +76,7 @@ class ExerciseRun:
     demonstrates: bool = False
     touches: bool = False
     breathes: bool = False
+    resting: Resting | None = None
 
     @property
     def is_real(self) -> bool:

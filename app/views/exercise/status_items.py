@@ -89,8 +89,13 @@ def encoder_item(age: float, fault: str = "") -> StatusItem:
     )
 
 
-def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> StatusItem:
-    """Return the cameras' health: rate [Hz], valid share 0…1, age of the last fix [s], problem."""
+def tracker_item(
+    rate: float, valid_share: float, age: float, problem: str, simulated: bool = False
+) -> StatusItem:
+    """Return the cameras' health: rate [Hz], valid share 0…1, age of the last fix [s], problem.
+
+    `simulated`: whether this computer draws what the cameras see.
+    """
     verdict = _by_age(age, TRACKER_FRESH, TRACKER_HOLD)
     if verdict is Verdict.GOOD and (problem or valid_share < SHARE_WARNING):
         verdict = Verdict.WARNING
@@ -108,15 +113,23 @@ def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> S
             "Rate of the tracker, share of pictures in which both cameras saw the marker, age of "
             "the last such fix. If the marker is out of view, bring it back between the cameras; "
             "look at the camera pictures for dirt, light or something in the way."
+        )
+        if not simulated
+        else tr(
+            "Rate of the tracker, share of pictures in which both cameras saw the marker, age of "
+            "the last such fix. The cameras are simulated: this computer draws what they see. "
+            "Where their pictures come late, close other programs."
         ),
-        plain=_seen_words(verdict, problem),
+        plain=_seen_words(verdict, problem, simulated),
     )
 
 
-def _seen_words(verdict: Verdict, problem: str) -> str:
-    """Say in a student's words how the cameras are."""
+def _seen_words(verdict: Verdict, problem: str, simulated: bool) -> str:
+    """Say in a student's words how the cameras are; `simulated` ones are never to blame."""
     if problem:
         return problem
+    if simulated and verdict is not Verdict.GOOD:
+        return tr("pictures come late: this computer is busy")
     return {
         Verdict.GOOD: tr("see the marker"),
         Verdict.WARNING: tr("see the marker now and then"),

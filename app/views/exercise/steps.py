@@ -107,6 +107,12 @@ def _pause_words(cause: PauseCause | None) -> str:
         return tr("Paused: the window was busy; it goes on by itself.")
     if cause is PauseCause.HAND:
         return tr("Paused: the needle swings in the simulated hand; it goes on by itself.")
+    if cause is PauseCause.CAMERAS:
+        return tr(
+            "Paused: the simulated cameras do not see the needle there. Move it back a little."
+        )
+    if cause is None:
+        return tr("One moment: nothing has told for an instant where the needle is.")
     return tr("Paused: this computer is too busy. Close other programs; it goes on by itself.")
 
 

@@ -119,8 +119,9 @@ class BackgroundTask(QObject):
         # A callback may hold the last reference to the parent. Let go of together with this
         # object it would have the parent destroy this object once more, in its own destructor.
         self._callbacks = (_nothing, _nothing, None)
-        error, result = self._box.error, self._box.result
-        self._box = _Outcome(_nothing)
+        box, self._box = self._box, _Outcome(_nothing)
+        error, result = box.error, box.result
+        box.result = box.error = None  # it stands in a circle, and may have brought a whole patient
         try:
             if error is None:
                 on_success(result)

@@ -317,6 +317,7 @@ class RobotFeature(Feature):
     def _connect(self) -> None:
         health = self.panel
         self._conductor.controller.snapshot_taken.connect(self._show_health)
+        self._conductor.controller.rester.watched.append(health.isVisible)
         self._runs.gone.connect(health.clear)
         self._runs.starting.connect(health.set_starting)
         health.commissioning_wanted.connect(self.commission)

@@ -184,11 +184,10 @@ class SceneFeed(QObject):
         self._renderer, self._pane = renderer, pane
         self.orbit, self.image = orbit, QImage()
         self._turned_at = self._fine_at = -SETTLE_S
-        self._fine, self._pending, self._paused = False, False, False
+        self._fine = self._pending = self._paused = self._still = False
         self._moving_size, self._least = 1.0, LEAST_SIZE
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._poll)
-        self._timer.start()
         renderer.open()
 
     @property
@@ -210,32 +209,47 @@ class SceneFeed(QObject):
     def set_paused(self, paused: bool) -> None:
         """Ask for no pictures while nobody may see them."""
         self._paused = paused
-        self._pending = True
+        self.refresh()
+
+    def set_still(self, still: bool) -> None:
+        """Leave the picture as it is, unless somebody turns it, or draw what changes again."""
+        self._still = still
+        self.refresh()
 
     @property
     def is_settled(self) -> bool:
         """Return whether the picture is the fine one of what there is to be seen."""
-        if self._paused:
+        if self._paused or self._still:
             return True
         return self._fine and not self._pending and self._renderer.idle
 
     def change(self, kind: str, change: Change) -> None:
         """Change what is seen; the newest of a kind wins."""
         self._renderer.change(kind, change)
-        self._pending = True
+        self.refresh()
 
     def turn(self, orbit: Orbit) -> None:
         """Look from somewhere else."""
         self.orbit, self._turned_at, self._least = orbit, monotonic(), LEAST_SIZE
-        self._pending = True
+        self.refresh()
 
     def stir(self) -> None:
         """Draw a little coarsely for a while: something moves that is to be seen moving."""
+        if self._still:
+            return
         self._turned_at, self._least = monotonic(), STIRRED_SIZE
 
     def refresh(self) -> None:
         """Ask for another picture, as after a change of the size."""
         self._pending = True
+        self.look()
+
+    def look(self) -> None:
+        """Look for pictures from now on, if anybody may see them: the pane has come to the front,
+        or something has changed.
+        """
+        if self._pane.isVisible() and not self._timer.isActive():
+            self._timer.start()
 
     def close(self) -> None:
         """Stop looking and stop the thread; idempotent."""
@@ -249,10 +263,16 @@ class SceneFeed(QObject):
             borrowed = QImage(picture.data, width, height, QImage.Format.Format_RGBX8888)
             self.image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
             self.arrived.emit()
-        if self._paused or not self._pane.isVisible() or not self._renderer.idle:
+        if not self._renderer.idle:
             return
         now = monotonic()
-        if now - self._turned_at < SETTLE_S:
+        turns = now - self._turned_at < SETTLE_S
+        nothing = self._paused or (self._still and not turns)
+        if nothing or not self._pane.isVisible() or (self._fine and not self._pending):
+            if picture is None:
+                self._timer.stop()  # until something changes, or the pane is shown
+            return
+        if turns:
             if self._pending:
                 self._request(moving=True)
                 self._fine = False

@@ -21,6 +21,7 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QResizeEvent,
+    QShowEvent,
     QWheelEvent,
 )
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
@@ -288,6 +289,10 @@ class SceneView(QWidget):
         self._feed.set_paused(bool(words))
         self.update()
 
+    def set_still(self, still: bool) -> None:
+        """Leave the picture as it is, unless somebody turns it, or draw what changes again."""
+        self._feed.set_still(still)
+
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the needle."""
         self._needle = needle
@@ -438,6 +443,11 @@ class SceneView(QWidget):
             return ()
         colours = ((name, QColor(ORGAN_COLOURS[name])) for name in self._organs)
         return tuple(((c.red(), c.green(), c.blue()), organ_title(name)) for name, c in colours)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Look for pictures, which nobody made while it was hidden."""
+        super().showEvent(event)
+        self._feed.look()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Ask for a picture of the new size."""

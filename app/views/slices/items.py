@@ -71,6 +71,12 @@ class MarkItem(Shape):
         """Return where it stands [mm]."""
         return self._at.y()
 
+    def setVisible(self, visible: bool) -> None:
+        """Draw it from now on, or not; a hidden one holds no words, and with them no plane's CT."""
+        super().setVisible(visible)
+        if not visible:
+            self._words = str
+
     def place(self, x: float, y: float, words: Callable[[], str], near: bool) -> None:
         """Stand at (x, y) [mm].
 

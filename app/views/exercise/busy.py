@@ -1,0 +1,91 @@
+"""A computer that is too busy for all pictures of an attempt: the display becomes lighter first.
+
+What is measured is how late the window's own looks come, not a guess from the load of the machine.
+The hand, the slices and the record need the time more than the 3D view: it stands still, and the
+window looks half as often, until the looks have been on time for a while. A display that becomes
+full again may be what made the computer late, so each time it was too early the wait is doubled.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from enum import StrEnum
+from typing import Final
+
+LATE_S: Final = 0.030
+"""Looks that come so late on the mean make the display lighter [s]: below 22 pictures a second."""
+
+OVER_S: Final = 2.0
+"""The mean is over this long [s]: a garbage collection or a dialog is no busy computer."""
+
+CALM_S: Final = 0.008
+"""Looks that come no later than this on the mean are on time [s]."""
+
+WAIT_S: Final = 5.0
+"""They have been on time for so long when the display becomes full again [s]."""
+
+LONGEST_S: Final = 60.0
+"""The same at most, after many times that were too early [s]."""
+
+RELAPSE_S: Final = 20.0
+"""Late again so soon after the display was full again: that was too early [s]."""
+
+
+class Load(StrEnum):
+    """How much is drawn."""
+
+    FULL = "full"
+    LIGHT = "light"
+
+
+class BusyWatch:
+    """Judges looks one after the other.
+
+    Attributes:
+        load: how much is to be drawn now.
+    """
+
+    def __init__(self) -> None:
+        self.load = Load.FULL
+        self._looks: deque[tuple[float, float]] = deque()
+        self._calm_since: float | None = None
+        self._full_since, self._wait = -RELAPSE_S, WAIT_S
+
+    def begin(self) -> None:
+        """Begin another attempt with everything drawn; how long was too early is remembered."""
+        self._looks.clear()
+        self.load, self._calm_since = Load.FULL, None
+
+    def note(self, now: float, passed: float, period: float) -> Load:
+        """Judge a look.
+
+        Args:
+            now: its time [s].
+            passed: since the look before [s].
+            period: after which it was due [s].
+
+        Returns:
+            How much is to be drawn from now on.
+        """
+        looks = self._looks
+        looks.append((now, max(0.0, passed - period)))
+        while now - looks[0][0] > OVER_S:
+            looks.popleft()
+        late = sum(late for _, late in looks) / len(looks)
+        if self.load is Load.FULL:
+            if late > LATE_S and now - looks[0][0] > 0.5 * OVER_S:
+                self._lighten(now)
+        elif late > CALM_S:
+            self._calm_since = None
+        else:
+            self._calm_since = now if self._calm_since is None else self._calm_since
+            if now - self._calm_since >= self._wait:
+                self.load, self._full_since = Load.FULL, now
+                looks.clear()
+        return self.load
+
+    def _lighten(self, now: float) -> None:
+        relapsed = now - self._full_since < RELAPSE_S
+        self._wait = min(2.0 * self._wait, LONGEST_S) if relapsed else WAIT_S
+        self.load, self._calm_since = Load.LIGHT, None
+        self._looks.clear()

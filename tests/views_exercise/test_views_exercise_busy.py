@@ -1,0 +1,125 @@
+"""On a busy computer an attempt draws less, by how late the window's own looks come."""
+
+from itertools import pairwise
+
+import pytest
+from views_exercise_fakes import FakeTrainer, run, snapshot
+
+from app.session.machine import State
+from app.views.exercise.attempt_rail import AttemptRail
+from app.views.exercise.busy import LONGEST_S, OVER_S, WAIT_S, BusyWatch, Load
+from app.views.exercise.controller import LIGHT_MS, PERIOD_MS
+
+PERIOD = 0.016
+
+
+class Looks:
+    """Looks of a window, each so late [s]."""
+
+    def __init__(self):
+        self.watch, self.now = BusyWatch(), 50.0
+
+    def go_on(self, seconds, late, period=PERIOD):
+        """Look for a while; returns the loads that were said."""
+        said, end = [], self.now + seconds
+        while self.now < end:
+            self.now += period + late
+            said.append(self.watch.note(self.now, period + late, period))
+        return said
+
+    def until(self, load, late, limit=300.0):
+        """Look until a load is said; returns how long that took [s]."""
+        began = self.now
+        while self.watch.load is not load:
+            assert self.now - began < limit
+            self.go_on(0.1, late)
+        return self.now - began
+
+
+@pytest.fixture
+def looks():
+    return Looks()
+
+
+def test_looks_on_time_leave_everything_drawn(looks):
+    assert set(looks.go_on(60.0, 0.004)) == {Load.FULL}
+
+
+def test_one_long_standstill_is_no_busy_computer(looks):
+    looks.go_on(5.0, 0.001)
+    looks.go_on(0.1, 1.2)
+    assert set(looks.go_on(10.0, 0.001)) == {Load.FULL}
+
+
+def test_looks_that_stay_late_make_the_display_lighter_within_some_seconds(looks):
+    looks.go_on(5.0, 0.002)
+    assert looks.until(Load.LIGHT, 0.060) <= 2.0 * OVER_S
+
+
+def test_it_is_full_again_only_after_looks_on_time_for_a_while(looks):
+    looks.until(Load.LIGHT, 0.060)
+    assert set(looks.go_on(10.0, 0.020)) == {Load.LIGHT}  # neither late nor on time
+    assert looks.until(Load.FULL, 0.001) >= WAIT_S
+
+
+def test_a_display_that_makes_the_computer_late_itself_is_tried_ever_more_seldom(looks):
+    waits = []
+    for _ in range(8):
+        looks.until(Load.LIGHT, 0.060)
+        waits.append(looks.until(Load.FULL, 0.001))
+    assert all(after > before - 1.0 for before, after in pairwise(waits))
+    assert waits[1] > 1.5 * waits[0]
+    assert waits[-1] == pytest.approx(LONGEST_S, abs=1.5 * OVER_S)
+
+
+def test_another_attempt_begins_with_everything_drawn(looks):
+    looks.until(Load.LIGHT, 0.060)
+    looks.watch.begin()
+    assert looks.watch.load is Load.FULL
+
+
+def look(desk, count, seconds):
+    for _ in range(count):
+        desk.controller._clock.sleep(seconds)
+        desk.controller.poll()
+
+
+def test_late_looks_lighten_the_display_in_an_attempt_alone_and_it_goes_back(desk):
+    said = []
+    desk.controller.burdened.connect(said.append)
+    look(desk, 100, 0.08)
+    assert said == []
+    desk.trainer.now = snapshot(desk.trainer.placed, state=State.ALIGNING)
+    look(desk, 100, 0.08)
+    assert said == [True]
+    assert desk.controller._timer.interval() == LIGHT_MS
+    look(desk, 200, 1e-3 * LIGHT_MS + 0.002)
+    assert said == [True, False]
+    assert desk.controller._timer.interval() == PERIOD_MS
+    look(desk, 100, 0.08)
+    desk.trainer.now = snapshot(desk.trainer.placed, state=State.ENDED)
+    look(desk, 1, 0.08)
+    assert said == [True, False, True, False]
+
+
+def test_a_run_that_goes_leaves_no_light_display_behind(desk):
+    said = []
+    desk.controller.burdened.connect(said.append)
+    desk.trainer.now = snapshot(desk.trainer.placed, state=State.ALIGNING)
+    look(desk, 100, 0.08)
+    desk.controller.attach(run(FakeTrainer()))
+    desk.controller._timer.stop()
+    assert said == [True, False]
+
+
+def test_the_rail_says_quietly_what_stands_still(qt):
+    rail = AttemptRail()
+    rail.show()
+    rail.set_busy(True)
+    assert rail._busy.isVisible()
+    assert rail._busy.text() == "This computer is busy: the 3D view stands still."
+    rail.set_busy(True, has_scene=False)
+    assert "3D" not in rail._busy.text()
+    rail.set_busy(False)
+    assert not rail._busy.isVisible()
+    rail.deleteLater()
