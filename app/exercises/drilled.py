@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.exercises.drill import LONGEST_ID, DrillKind, DrillPart, asks
 from app.exercises.guidance import Purpose
 from app.exercises.parts import PlanPoints
-from app.exercises.schema import Exercise
+from app.exercises.schema import OF_OWN_PLANS, Exercise
 from app.planning.placement import PlacedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.rows import ScoreRules
@@ -32,10 +32,14 @@ def drilled(exercise: Exercise, kind: DrillKind, placed: PlacedPlan) -> Exercise
         ),
         "description": asks(kind),
     }
+    tolerances = {
+        name: bands for name, bands in exercise.tolerances.items() if name not in OF_OWN_PLANS
+    }
+    changes["tolerances"] = tolerances  # the path is given: nobody plans
     if kind is not DrillKind.REPEAT:
         others = {
             name: bands.model_copy(update={"weight": 0.0, "required": False})
-            for name, bands in exercise.tolerances.items()
+            for name, bands in tolerances.items()
         }  # shown, and the rings stay what they are
         changes["tolerances"] = others | _judged(kind, exercise)
     if kind is DrillKind.ALIGN:  # nothing lies deeper than the skin, and hardly a picture of it

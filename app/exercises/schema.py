@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import Annotated
+from typing import Annotated, Final
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
@@ -46,6 +46,9 @@ from app.scoring.tolerance import Tolerance
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
 from app.simulation.scene import check_order
+
+OF_OWN_PLANS: Final = frozenset({"plan_score", "plan_clearance"})
+"""Metrics of the path that the student chose: there is none where the exercise gives it."""
 
 
 class Exercise(Strict):
@@ -248,6 +251,19 @@ class Exercise(Strict):
         return self
 
     @model_validator(mode="after")
+    def _plans_are_judged_where_they_are_made(self) -> Exercise:
+        judged = [name for name in self.tolerances if name in OF_OWN_PLANS]
+        if judged and not self.is_own_plan:
+            raise ValueError(
+                sentence(
+                    "tolerances: {metric} is of a path that the student chooses: use plan "
+                    "{{own: true}}, or leave it out",
+                    metric=judged[0],
+                )
+            )
+        return self
+
+    @model_validator(mode="after")
     def _plan_fits_ct(self) -> Exercise:
         if isinstance(self.plan, OwnPlan):
             if self.plan.target_mm is None and self.ct.phantom is None:
@@ -287,6 +303,11 @@ class Exercise(Strict):
             AcusError: if targets find no room, or lie on the entry.
         """
         return touch_task(self.touch, placed, self.seed)
+
+    @property
+    def is_own_plan(self) -> bool:
+        """Return whether the student chooses the entry, so that the plan is judged."""
+        return isinstance(self.plan, OwnPlan)
 
     @property
     def guidance_mode(self) -> GuidanceMode:

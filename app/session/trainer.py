@@ -208,6 +208,7 @@ class Trainer:
                 self._scorer,
                 risks=self._risks,
                 tissues=self._tissues,
+                judges_plan=self._exercise.is_own_plan,
             )
             # Head and checkpoint are on the disk before the attempt's clock starts.
             failure = log.open(threaded=self._ticker is not None)
