@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from app.exercises.drill import LONGEST_ID, DrillKind, DrillPart, asks
 from app.exercises.guidance import Purpose
-from app.exercises.parts import PlanPoints
-from app.exercises.schema import OF_OWN_PLANS, Exercise
+from app.exercises.parts import OF_OWN_PLANS, PlanPoints
+from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.rows import ScoreRules

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import Annotated, Final
+from typing import Annotated
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
@@ -19,6 +19,7 @@ from app.exercises.guidance import (
 )
 from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.parts import (
+    OF_OWN_PLANS,
     TELLING,
     Ct,
     EffectPart,
@@ -46,9 +47,6 @@ from app.scoring.tolerance import Tolerance
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
 from app.simulation.scene import check_order
-
-OF_OWN_PLANS: Final = frozenset({"plan_score", "plan_clearance"})
-"""Metrics of the path that the student chose: there is none where the exercise gives it."""
 
 
 class Exercise(Strict):
@@ -308,6 +306,12 @@ class Exercise(Strict):
     def is_own_plan(self) -> bool:
         """Return whether the student chooses the entry, so that the plan is judged."""
         return isinstance(self.plan, OwnPlan)
+
+    @property
+    def needs_field(self) -> bool:
+        """Return whether it asks what lies in the patient where the needle is, or is planned to."""
+        judged = self.rules.forbidden or OF_OWN_PLANS & self.tolerances.keys()
+        return self.tissue is not TissueSource.LAYERS or bool(judged)
 
     @property
     def guidance_mode(self) -> GuidanceMode:

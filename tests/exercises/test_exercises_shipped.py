@@ -12,6 +12,7 @@ from app.exercises.parts import TELLING, ViewName
 from app.exercises.scene import device_of, draft_of, plan_of
 from app.exercises.schema import Exercise
 from app.imaging.phantom.anatomy import anatomy
+from app.planning.judged_plan import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.planning.reach import reach
@@ -68,6 +69,7 @@ def attempt(exercise: Exercise, badness: float, seed: int) -> Score:
             for part in exercise.structures
             for name, limit in part.risks.items()
         ),
+        planned=JudgedPlan(90.0 * (1.0 - badness), 75.0, 10.0, 9.0 * (1.0 - badness)),
     )
     return score(trajectory, exercise.tolerances, exercise.rules)
 
@@ -158,6 +160,7 @@ def stopped_short(exercise: Exercise, short: float, seconds: float) -> Score:
         ),
         touches=Touches(6, ()) if exercise.touch else None,
         met=(),
+        planned=JudgedPlan(100.0, 60.0, 0.0, 30.0),
     )
     return score(trajectory, exercise.tolerances, exercise.rules)
 

@@ -30,6 +30,7 @@ WALL = datetime(2026, 1, 15, 9, 31, 22, 418000, tzinfo=UTC)
 EXERCISE = SimpleNamespace(
     effects={},
     drill=None,
+    is_own_plan=False,
     id="liver-01",
     title="Liver, first insertion",
     version=1,
