@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Final
 
+from app.exercises.hand_bands import bands_among
 from app.exercises.parts import KILOPASCAL, OF_OWN_PLANS, LayerPart, LayersFrom, TissueSource
 from app.imaging.tissue import Tissue, tissue_along
 from app.simulation.bound_field import MOVING
@@ -154,6 +155,7 @@ def in_layers(exercise: Exercise) -> Exercise:
         "effects": effects,
         "rules": rules,
         "tolerances": judged,
+        "bands": bands_among(exercise.bands, judged),
     }
     return exercise.model_copy(update=changes)
 

@@ -155,9 +155,10 @@ def _phases(states: NDArray[np.str_]) -> NDArray[np.str_]:
     return np.where(states == State.WITHDRAWING.value, State.READY.value, states)
 
 
-def scorer(exercise: Exercise) -> Callable[[Trajectory], Score]:
-    """Return the scorer of an exercise: its tolerances and its rules."""
-    return lambda path: score(path, exercise.tolerances, exercise.rules)
+def scorer(exercise: Exercise, hand: str = "") -> Callable[[Trajectory], Score]:
+    """Return the scorer of an exercise: its tolerances, by the bands of a hand, and its rules."""
+    tolerances = exercise.tolerances_for(hand)
+    return lambda path: score(path, tolerances, exercise.rules)
 
 
 def score_document(score: Score) -> dict[str, Any]:

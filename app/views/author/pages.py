@@ -1109,7 +1109,7 @@ class ScorePage(Form):
     looked_at = Signal()
 
     def __init__(self, editor: ExerciseEditor) -> None:
-        super().__init__(editor, tr("Score"), ("tolerances", "rules"))
+        super().__init__(editor, tr("Score"), ("tolerances", "bands", "rules"))
         there = {name: one for name, one in metrics.available().items() if not one.fault}
         first = [name for name in USUAL if name in there]
         self.metrics = {name: there[name] for name in dict.fromkeys((*first, *there))}
