@@ -20,6 +20,7 @@ import argparse
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
 
@@ -53,7 +54,8 @@ def fitted(careful: Sequence[float], hasty: Sequence[float]) -> Bands | None:
     """Return bands of a metric of which less is better; None where nothing parts the two groups.
 
     Args:
-        careful, hasty: sizes of the values of both, one or more.
+        careful: values of the ones, one at least.
+        hasty: of the others.
     """
     good, bad = np.sort(np.abs(careful)), np.sort(np.abs(hasty))
     expert, zero = float(np.percentile(good, KEPT_SHARE)), float(np.median(bad))
@@ -66,7 +68,7 @@ def fitted(careful: Sequence[float], hasty: Sequence[float]) -> Bands | None:
     between = cuts[least[len(least) // 2]] if len(least) > 1 else cuts[least[0]]
     passing = float(between)
     knots = [_rounded(one) for one in (expert, 0.5 * (expert + passing), passing, zero)]
-    if min(wrong) >= 0.5 or not all(a < b for a, b in zip(knots, knots[1:], strict=False)):
+    if min(wrong) >= 0.5 or not all(a < b for a, b in pairwise(knots)):
         return None
     return Bands.model_validate(dict(zip(("expert", "good", "pass", "zero"), knots, strict=True)))
 
@@ -130,11 +132,9 @@ def proposed(exercise: Exercise, careful: Sequence[Score], hasty: Sequence[Score
         stricter = bands is not None and all(
             a <= b for a, b in zip(bands.knots, limits.knots, strict=True)
         )
-        print(
-            f"  {name}: {_quantiles(groups[0])} | {_quantiles(groups[1])} -> {_words(bands)}",
-            end="",
-        )
-        print("" if bands is None or stricter else "  looser than the tolerance: not taken")
+        spans = " | ".join(map(_quantiles, groups))
+        looser = "" if bands is None or stricter else "; looser than the tolerance: not taken"
+        print(f"  {name}: {spans} -> {_words(bands)}{looser}")
         if bands is not None and stricter:
             metrics[name] = bands
     return HandBands(source=BandsSource.SCRIPTS, metrics=metrics)

@@ -79,16 +79,13 @@ def _hands_words(exercise: Exercise) -> list[str]:
         HandName.TABLET: tr("With the tablet"),
         HandName.GAMEPAD: tr("With the gamepad"),
     }
-    return [
-        tr(
-            "{hand}: {limits}",
-            hand=hands[hand],
-            limits=_limit_words(declared(one.title), one.unit, limits),
-        )
-        for hand, own in exercise.bands.items()
-        for name, limits in exercise.tolerances_for(hand.value).items()
-        if name in own.metrics and (one := known.get(name)) is not None
-    ]
+    said = []
+    for hand, own in exercise.bands.items():
+        for name, limits in exercise.tolerances_for(hand.value).items():
+            if name in own.metrics and name in known:
+                words = _limit_words(declared(known[name].title), known[name].unit, limits)
+                said.append(tr("{hand}: {limits}", hand=hands[hand], limits=words))
+    return said
 
 
 def _limit_words(title: str, unit: str, limits: Tolerance) -> str:
