@@ -17450,8 +17450,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Das Ziel weicht der Nadel aus</translation>
         </message>
         <message>
-            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel and that the robot can follow, place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
-            <translation type="unfinished">Ziel ist die Läsion in der Leber. Finden Sie einen Einstichpunkt, von dem ein gerader Pfad weder Rippe noch Lunge noch Gefäß trifft und dem der Roboter folgen kann, setzen Sie ihn (E oder die Karte der Einstichpunkte im Bereich Plan), und führen Sie dann die Nadel entlang Ihres eigenen Pfads ein. Eine Rippe hält die Nadel auf; wer eine Rippe, Lunge, Darm oder ein großes Gefäß trifft, hat nicht bestanden. Der Patient hält den Atem an.</translation>
+            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel, stays well away from them, is short and goes straight in, and that the robot can follow; place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. The path that you choose is half of the score. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
+            <translation type="unfinished">Ziel ist die Läsion in der Leber. Finden Sie einen Einstichpunkt, von dem ein gerader Pfad weder Rippe noch Lunge noch Gefäß trifft, weit von ihnen weg bleibt, kurz ist und gerade hineinführt, und dem der Roboter folgen kann; setzen Sie ihn (E oder die Karte der Einstichpunkte im Bereich Plan), und führen Sie dann die Nadel entlang Ihres eigenen Pfads ein. Der Pfad, den Sie wählen, ist die Hälfte der Punkte. Eine Rippe hält die Nadel auf; wer eine Rippe, Lunge, Darm oder ein großes Gefäß trifft, hat nicht bestanden. Der Patient hält den Atem an.</translation>
         </message>
         <message>
             <source>The tensegrity needle holder: workspace, closure, conditioning, stiffness, encoders</source>
@@ -17720,6 +17720,106 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>--full and --quick ask for both: leave one of them out</source>
             <translation type="unfinished">--full und --quick verlangen beides: eines davon weglassen</translation>
+        </message>
+        <message>
+            <source>{where} has no tolerance: give it one, with its weight</source>
+            <translation type="unfinished">{where} hat keine Toleranz: Geben Sie eine an, mit ihrem Gewicht</translation>
+        </message>
+        <message>
+            <source>{where} says where the needle has to end, which is the same for every hand: change its tolerance</source>
+            <translation type="unfinished">{where} sagt, wo die Nadel enden muss, und das ist für jede Hand gleich: Ändern Sie die Toleranz</translation>
+        </message>
+        <message>
+            <source>{where} runs against the bands of its tolerance</source>
+            <translation type="unfinished">{where} läuft den Bereichen der Toleranz entgegen</translation>
+        </message>
+        <message>
+            <source>tolerances: {metric} is of a path that the student chooses: use plan {{own: true}}, or leave it out</source>
+            <translation type="unfinished">tolerances: {metric} gehört zu einem Pfad, den die Studierenden wählen: Nehmen Sie plan {{own: true}}, oder lassen Sie es weg</translation>
+        </message>
+        <message>
+            <source>nobody labelled what most of the planned path goes through</source>
+            <translation type="unfinished">niemand hat bezeichnet, wodurch der größte Teil des geplanten Pfads führt</translation>
+        </message>
+        <message>
+            <source>the entry does not lie on the skin</source>
+            <translation type="unfinished">der Einstichpunkt liegt nicht auf der Haut</translation>
+        </message>
+        <message>
+            <source>nothing that a needle should not meet is near the planned path</source>
+            <translation type="unfinished">nahe am geplanten Pfad ist nichts, was eine Nadel nicht treffen soll</translation>
+        </message>
+        <message>
+            <source>the path was given, or no tissue field told what lies on it</source>
+            <translation type="unfinished">der Pfad war vorgegeben, oder kein Gewebefeld sagte, was auf ihm liegt</translation>
+        </message>
+        <message>
+            <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">Der Pfad führt in {depth_mm:.0f} mm Tiefe durch {length_mm:.1f} mm {tissue}.</translation>
+        </message>
+        <message>
+            <source>The path is {length_mm:.0f} mm long; {most_mm:.0f} mm are allowed.</source>
+            <translation type="unfinished">Der Pfad ist {length_mm:.0f} mm lang; {most_mm:.0f} mm sind erlaubt.</translation>
+        </message>
+        <message>
+            <source>The path lies {angle:.0f}° off straight in at the skin; {most:.0f}° are allowed.</source>
+            <translation type="unfinished">Der Pfad weicht an der Haut um {angle:.0f}° von der Senkrechten ab; {most:.0f}° sind erlaubt.</translation>
+        </message>
+        <message>
+            <source>The path comes within {mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">Der Pfad kommt in {depth_mm:.0f} mm Tiefe bis auf {mm:.1f} mm heran an: {tissue}.</translation>
+        </message>
+        <message>
+            <source>It meets the pleura at {angle:.0f}°.</source>
+            <translation type="unfinished">Er trifft die Pleura unter {angle:.0f}°.</translation>
+        </message>
+        <message>
+            <source>It is {length_mm:.0f} mm long and goes in {angle:.0f}° off straight.</source>
+            <translation type="unfinished">Er ist {length_mm:.0f} mm lang und weicht beim Einstich um {angle:.0f}° von der Senkrechten ab.</translation>
+        </message>
+        <message>
+            <source>bands: {bands}</source>
+            <translation type="unfinished">Bereiche: {bands}</translation>
+        </message>
+        <message>
+            <source>Bands</source>
+            <translation type="unfinished">Bereiche</translation>
+        </message>
+        <message>
+            <source>from scripts, not people</source>
+            <translation type="unfinished">nach Skripten, nicht nach Menschen</translation>
+        </message>
+        <message>
+            <source>from people's attempts</source>
+            <translation type="unfinished">nach Versuchen von Menschen</translation>
+        </message>
+        <message>
+            <source>as the exercise's author set them</source>
+            <translation type="unfinished">wie sie die Autorin oder der Autor der Übung gesetzt hat</translation>
+        </message>
+        <message>
+            <source>With the mouse</source>
+            <translation type="unfinished">Mit der Maus</translation>
+        </message>
+        <message>
+            <source>With the tablet</source>
+            <translation type="unfinished">Mit dem Grafiktablett</translation>
+        </message>
+        <message>
+            <source>With the gamepad</source>
+            <translation type="unfinished">Mit dem Gamepad</translation>
+        </message>
+        <message>
+            <source>{hand}: {limits}</source>
+            <translation type="unfinished">{hand}: {limits}</translation>
+        </message>
+        <message>
+            <source>Planned path</source>
+            <translation type="unfinished">Geplanter Pfad</translation>
+        </message>
+        <message>
+            <source>Room about the planned path</source>
+            <translation type="unfinished">Freiraum um den geplanten Pfad</translation>
         </message>
     </context>
 </TS>

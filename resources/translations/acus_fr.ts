@@ -17450,8 +17450,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">La cible cède devant l’aiguille</translation>
         </message>
         <message>
-            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel and that the robot can follow, place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
-            <translation type="unfinished">La cible est la lésion du foie. Trouvez un point d’entrée d’où une trajectoire droite ne rencontre ni côte, ni poumon, ni vaisseau, et que le robot peut suivre ; placez-le (E, ou la carte des points d’entrée dans le panneau Plan), puis introduisez l’aiguille le long de votre propre trajectoire. Une côte arrête l’aiguille ; en rencontrer une, ou le poumon, l’intestin ou un gros vaisseau, fait échouer. Le patient retient sa respiration.</translation>
+            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel, stays well away from them, is short and goes straight in, and that the robot can follow; place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. The path that you choose is half of the score. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
+            <translation type="unfinished">La cible est la lésion du foie. Trouvez un point d’entrée d’où une trajectoire droite ne rencontre ni côte, ni poumon, ni vaisseau, en reste bien à l’écart, est courte et entre droit, et que le robot peut suivre ; placez-le (E, ou la carte des points d’entrée dans le panneau Plan), puis introduisez l’aiguille le long de votre propre trajectoire. La trajectoire que vous choisissez compte pour la moitié des points. Une côte arrête l’aiguille ; en rencontrer une, ou le poumon, l’intestin ou un gros vaisseau, fait échouer. Le patient retient sa respiration.</translation>
         </message>
         <message>
             <source>The tensegrity needle holder: workspace, closure, conditioning, stiffness, encoders</source>
@@ -17720,6 +17720,106 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>--full and --quick ask for both: leave one of them out</source>
             <translation type="unfinished">--full et --quick demandent les deux : retirez l’un d’eux</translation>
+        </message>
+        <message>
+            <source>{where} has no tolerance: give it one, with its weight</source>
+            <translation type="unfinished">{where} n’a pas de tolérance : donnez-en une, avec son poids</translation>
+        </message>
+        <message>
+            <source>{where} says where the needle has to end, which is the same for every hand: change its tolerance</source>
+            <translation type="unfinished">{where} dit où l’aiguille doit finir, ce qui est le même pour toute main : changez sa tolérance</translation>
+        </message>
+        <message>
+            <source>{where} runs against the bands of its tolerance</source>
+            <translation type="unfinished">{where} va à l’encontre des plages de sa tolérance</translation>
+        </message>
+        <message>
+            <source>tolerances: {metric} is of a path that the student chooses: use plan {{own: true}}, or leave it out</source>
+            <translation type="unfinished">tolerances : {metric} porte sur une trajectoire que l’étudiant choisit : utilisez plan {{own: true}}, ou omettez-la</translation>
+        </message>
+        <message>
+            <source>nobody labelled what most of the planned path goes through</source>
+            <translation type="unfinished">personne n’a nommé ce que traverse la plus grande partie de la trajectoire prévue</translation>
+        </message>
+        <message>
+            <source>the entry does not lie on the skin</source>
+            <translation type="unfinished">le point d’entrée n’est pas sur la peau</translation>
+        </message>
+        <message>
+            <source>nothing that a needle should not meet is near the planned path</source>
+            <translation type="unfinished">près de la trajectoire prévue, il n’y a rien qu’une aiguille doive éviter</translation>
+        </message>
+        <message>
+            <source>the path was given, or no tissue field told what lies on it</source>
+            <translation type="unfinished">la trajectoire était donnée, ou aucun champ de tissus n’a dit ce qui s’y trouve</translation>
+        </message>
+        <message>
+            <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">La trajectoire traverse {length_mm:.1f} mm de {tissue}, à {depth_mm:.0f} mm de profondeur.</translation>
+        </message>
+        <message>
+            <source>The path is {length_mm:.0f} mm long; {most_mm:.0f} mm are allowed.</source>
+            <translation type="unfinished">La trajectoire mesure {length_mm:.0f} mm ; {most_mm:.0f} mm sont permis.</translation>
+        </message>
+        <message>
+            <source>The path lies {angle:.0f}° off straight in at the skin; {most:.0f}° are allowed.</source>
+            <translation type="unfinished">À la peau, la trajectoire s’écarte de {angle:.0f}° de la perpendiculaire ; {most:.0f}° sont permis.</translation>
+        </message>
+        <message>
+            <source>The path comes within {mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">À {depth_mm:.0f} mm de profondeur, la trajectoire passe à {mm:.1f} mm de : {tissue}.</translation>
+        </message>
+        <message>
+            <source>It meets the pleura at {angle:.0f}°.</source>
+            <translation type="unfinished">Elle rencontre la plèvre à {angle:.0f}°.</translation>
+        </message>
+        <message>
+            <source>It is {length_mm:.0f} mm long and goes in {angle:.0f}° off straight.</source>
+            <translation type="unfinished">Elle mesure {length_mm:.0f} mm et entre à {angle:.0f}° de la perpendiculaire.</translation>
+        </message>
+        <message>
+            <source>bands: {bands}</source>
+            <translation type="unfinished">plages : {bands}</translation>
+        </message>
+        <message>
+            <source>Bands</source>
+            <translation type="unfinished">Plages</translation>
+        </message>
+        <message>
+            <source>from scripts, not people</source>
+            <translation type="unfinished">d’après des scripts, pas des personnes</translation>
+        </message>
+        <message>
+            <source>from people's attempts</source>
+            <translation type="unfinished">d’après des essais de personnes</translation>
+        </message>
+        <message>
+            <source>as the exercise's author set them</source>
+            <translation type="unfinished">telles que l’auteur de l’exercice les a fixées</translation>
+        </message>
+        <message>
+            <source>With the mouse</source>
+            <translation type="unfinished">Avec la souris</translation>
+        </message>
+        <message>
+            <source>With the tablet</source>
+            <translation type="unfinished">Avec la tablette</translation>
+        </message>
+        <message>
+            <source>With the gamepad</source>
+            <translation type="unfinished">Avec la manette</translation>
+        </message>
+        <message>
+            <source>{hand}: {limits}</source>
+            <translation type="unfinished">{hand} : {limits}</translation>
+        </message>
+        <message>
+            <source>Planned path</source>
+            <translation type="unfinished">Trajectoire prévue</translation>
+        </message>
+        <message>
+            <source>Room about the planned path</source>
+            <translation type="unfinished">Espace autour de la trajectoire prévue</translation>
         </message>
     </context>
 </TS>
