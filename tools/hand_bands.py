@@ -9,9 +9,9 @@ that parts the two groups with the fewest on the wrong side, the middle where se
 half-way; zero is the hasty ones' median. Where the hasty are no worse (they are quick), nothing
 parts them: the tolerance stays. These are scripts: nobody has been measured.
 
-Attempts are kept in the file, a line each, and not done again. Bands are not proposed where they
-are looser than the tolerance, or would let the hasty come above or the careful below what the
-exercise is meant to give (`MOST`, `LEAST`).
+Attempts are kept in the file, a line each, and not done again. Where bands would let the hasty come
+above or the careful below what the exercise is meant to give (`MOST`, `LEAST`), the stricter of
+each knot and the tolerance's is what is proposed.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def scores(file: Path, name: str, hand: str, seeds: Sequence[int]) -> list[Score
 
 
 def proposed(exercise: Exercise, careful: Sequence[Score], hasty: Sequence[Score]) -> HandBands:
-    """Fit bands of all metrics that count, but for where the needle ended; stricter ones alone.
+    """Fit bands of all metrics that count, but for where the needle ended.
 
     Raises:
         ValueError: if nothing is proposed.
@@ -129,15 +129,22 @@ def proposed(exercise: Exercise, careful: Sequence[Score], hasty: Sequence[Score
             continue
         groups = [_values(group, name) for group in (careful, hasty)]
         bands = fitted(*groups) if all(groups) else None
-        stricter = bands is not None and all(
-            a <= b for a, b in zip(bands.knots, limits.knots, strict=True)
-        )
         spans = " | ".join(map(_quantiles, groups))
-        looser = "" if bands is None or stricter else "; looser than the tolerance: not taken"
-        print(f"  {name}: {spans} -> {_words(bands)}{looser}")
-        if bands is not None and stricter:
+        print(f"  {name}: {spans} -> {_words(bands)}")
+        if bands is not None:
             metrics[name] = bands
     return HandBands(source=BandsSource.SCRIPTS, metrics=metrics)
+
+
+def _stricter(exercise: Exercise, bands: HandBands) -> HandBands:
+    """Return bands with the smaller of each knot and the tolerance's."""
+    metrics = {}
+    for name, own in bands.metrics.items():
+        knots = map(min, own.knots, exercise.tolerances[name].knots)
+        named = dict(zip(("expert", "good", "pass", "zero"), knots, strict=True))
+        metrics[name] = Bands.model_validate(named)
+        print(f"  {name}: {_words(metrics[name])}")
+    return bands.model_copy(update={"metrics": metrics})
 
 
 def checked(
@@ -201,7 +208,8 @@ def main() -> None:
             print(f"  seeds {check.start} to {check.stop - 1}, hasty; careful:")
             checked(exercise, None, *held)
             if not checked(exercise, bands, *held):
-                print("  not what the exercise is meant to give: the tolerances stay")
+                print("  not what the exercise is meant to give; the stricter of both:")
+                checked(exercise, _stricter(exercise, bands), *held)
 
 
 if __name__ == "__main__":
