@@ -53,13 +53,14 @@ def tissues_of(
 ) -> TissueField | None:
     """Make the tissue field of an exercise that looks into it; None where it does not.
 
-    It does where it forbids something, or does not say that its tissue lies in layers.
+    It does where it forbids something or judges a plan, or does not say that its tissue lies in
+    layers.
 
     Raises:
         AcusError: if the CT or a file of structures cannot be read.
         Cancelled: if `progress` was cancelled.
     """
-    if not exercise.rules.forbidden and exercise.tissue is TissueSource.LAYERS:
+    if not exercise.needs_field:
         return None
     progress = progress or Progress()
     volume = read_ct(exercise, progress.part(0.0, 0.4))

@@ -54,6 +54,7 @@ from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.observation import GRACE
+from app.session.planned import judged_plan_of
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
@@ -201,6 +202,7 @@ class Trials:
         self._tissues = tissues
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
+        self._planned = judged_plan_of(placed, tissues) if exercise.is_own_plan else None
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
         self._pulls = self._task is not None and bool(exercise.laws)
@@ -259,7 +261,10 @@ class Trials:
         near = risk_marks_of(samples, self._placed, self._risks)
         felt = self._exercise.tissue is TissueSource.FIELD
         met = tissues_met_of(samples, self._placed, self._tissues, felt)
-        path = trajectory(samples, self._placed, risks=near, touches=went.touches, met=met)
+        planned = self._planned
+        path = trajectory(
+            samples, self._placed, risks=near, touches=went.touches, met=met, planned=planned
+        )
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
     def truth(self, rows: FloatArray) -> Samples:

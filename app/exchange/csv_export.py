@@ -27,7 +27,7 @@ from app.exchange.markups import SCHEMA
 from app.imaging.volume import Volume
 from app.planning.measurements import KINDS, Angle, Distance, Measurement, Probe, Region
 from app.planning.measuring import measured
-from app.scoring.conditions import comparison_groups
+from app.scoring.conditions import Conditions, comparison_groups
 from app.session.curves import curves
 from app.session.recording import Recording
 from app.session.samples import Samples
@@ -218,7 +218,8 @@ FIXED: Final = (
 )
 """Columns before the metrics; each metric then has the column `<name>_<unit>`, and one for its
 standard deviation. After them stand `drill`, which part of the exercise alone was practised (its
-`passed` is no pass of the exercise), and `note`."""
+`passed` is no pass of the exercise), `bands`, the hand by whose own bands it was judged and where
+these come from, and `note`."""
 
 TRAJECTORY_COLUMNS: Final = (
     "time_s",
@@ -263,7 +264,7 @@ def score_table(summaries: Iterable[Summary]) -> str:
     groups = _groups(rows)
     metrics = list(dict.fromkeys(name for row in rows for name in _metrics(row)))
     unsure = [f"{name}_sd" for name in metrics]
-    lines: list[list[object]] = [[*FIXED, *metrics, *unsure, "drill", "note"]]
+    lines: list[list[object]] = [[*FIXED, *metrics, *unsure, "drill", "bands", "note"]]
     for row, group in zip(rows, groups, strict=True):
         values, sds = _metrics(row), _metrics(row, "sd")
         cells = [
@@ -274,6 +275,7 @@ def score_table(summaries: Iterable[Summary]) -> str:
             *(values.get(name) for name in metrics),
             *(sds.get(name) for name in metrics),
             None if row.conditions is None else row.conditions.drill,
+            None if row.conditions is None else _bands(row.conditions),
             DISCLAIMER,
         ]
         lines.append(cells)
@@ -380,6 +382,13 @@ def _conditions(row: Summary) -> Sequence[object]:
         c.agreement_mm,
         c.scoring_version or None,
     )
+
+
+def _bands(conditions: Conditions) -> str:
+    """Return `mouse (scripts)`; empty where the exercise's tolerances judged."""
+    if not conditions.bands_source:
+        return conditions.bands
+    return f"{conditions.bands} ({conditions.bands_source})"
 
 
 def _groups(rows: Sequence[Summary]) -> list[int | None]:

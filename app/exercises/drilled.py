@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from app.exercises.drill import LONGEST_ID, DrillKind, DrillPart, asks
 from app.exercises.guidance import Purpose
-from app.exercises.parts import PlanPoints
+from app.exercises.hand_bands import HandBands, bands_among
+from app.exercises.locks import HandName
+from app.exercises.parts import OF_OWN_PLANS, PlanPoints
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
@@ -32,18 +36,25 @@ def drilled(exercise: Exercise, kind: DrillKind, placed: PlacedPlan) -> Exercise
         ),
         "description": asks(kind),
     }
+    tolerances = {
+        name: bands for name, bands in exercise.tolerances.items() if name not in OF_OWN_PLANS
+    }  # the path is given: nobody plans
     if kind is not DrillKind.REPEAT:
         others = {
             name: bands.model_copy(update={"weight": 0.0, "required": False})
-            for name, bands in exercise.tolerances.items()
+            for name, bands in tolerances.items()
         }  # shown, and the rings stay what they are
-        changes["tolerances"] = others | _judged(kind, exercise)
+        tolerances = others | _judged(kind, exercise)
     if kind is DrillKind.ALIGN:  # nothing lies deeper than the skin, and hardly a picture of it
         changes["rules"] = ScoreRules(
             pass_mark=exercise.rules.pass_mark,
             minimum_tracking=0.0,
             maximum_pause=exercise.rules.maximum_pause,
         )
+    changes |= {
+        "tolerances": tolerances,
+        "bands": bands_among(_bands(exercise, kind), tolerances),
+    }
     return exercise.placed_as(placed.placement).model_copy(update=changes)
 
 
@@ -59,6 +70,20 @@ def _judged(kind: DrillKind, exercise: Exercise) -> dict[str, Tolerance]:
     gate = known.get("lateral_error", DEFAULT_TOLERANCES["lateral_error"]).expert
     limits = {"expert": 0.5 * gate, "good": gate, "pass": 1.5 * gate}
     return {"breath_offset": _alone(Tolerance.model_validate(limits))}
+
+
+def _bands(exercise: Exercise, kind: DrillKind) -> Mapping[HandName, HandBands]:
+    """Return the bands of hands; the angle at the skin has those of the angle where it has none."""
+    if kind is not DrillKind.ALIGN or "angle_at_skin" in exercise.tolerances:
+        return exercise.bands
+    return {
+        hand: own.model_copy(
+            update={"metrics": {**own.metrics, "angle_at_skin": own.metrics["angle_error"]}}
+        )
+        if "angle_error" in own.metrics
+        else own
+        for hand, own in exercise.bands.items()
+    }
 
 
 def _alone(bands: Tolerance) -> Tolerance:

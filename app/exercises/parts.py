@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 from pydantic import (
     AfterValidator,
@@ -169,6 +169,10 @@ class OwnPlan(Strict):
 
     own: Literal[True]
     target_mm: Triple | None = None
+
+
+OF_OWN_PLANS: Final = frozenset({"plan_score", "plan_clearance"})
+"""Metrics of the path that the student chose: there is none where the exercise gives it."""
 
 
 def _tag(value: object) -> str:

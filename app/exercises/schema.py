@@ -17,8 +17,10 @@ from app.exercises.guidance import (
     Purpose,
     StartingDial,
 )
+from app.exercises.hand_bands import OF_HANDS, HandBands, check_bands, judged_by_hand
 from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.parts import (
+    OF_OWN_PLANS,
     TELLING,
     Ct,
     EffectPart,
@@ -78,6 +80,7 @@ class Exercise(Strict):
         needle: gauge, and length where it is not the device's own.
         target_organ: where the target lies; an effect on another organ is dropped.
         tolerances: metric -> bands and weight.
+        bands: hand that moves the simulated one -> bands of its own, in place of the tolerances'.
         rules: pass mark, and when a score is void.
         purpose: practice, or an assessment; the latter guides by control scans alone unless
             `guidance.mode` says otherwise.
@@ -119,6 +122,7 @@ class Exercise(Strict):
     needle: NeedlePart = NeedlePart()
     target_organ: str = ""
     tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))
+    bands: Mapping[HandName, HandBands] = Field(default_factory=dict)
     rules: ScoreRules = ScoreRules()
     purpose: Purpose = Purpose.PRACTICE
     guidance: GuidancePart = GuidancePart()
@@ -248,6 +252,24 @@ class Exercise(Strict):
         return self
 
     @model_validator(mode="after")
+    def _plans_are_judged_where_they_are_made(self) -> Exercise:
+        judged = [name for name in self.tolerances if name in OF_OWN_PLANS]
+        if judged and not self.is_own_plan:
+            raise ValueError(
+                sentence(
+                    "tolerances: {metric} is of a path that the student chooses: use plan "
+                    "{{own: true}}, or leave it out",
+                    metric=judged[0],
+                )
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _bands_are_of_what_is_judged(self) -> Exercise:
+        check_bands(self.tolerances, self.bands)
+        return self
+
+    @model_validator(mode="after")
     def _plan_fits_ct(self) -> Exercise:
         if isinstance(self.plan, OwnPlan):
             if self.plan.target_mm is None and self.ct.phantom is None:
@@ -287,6 +309,27 @@ class Exercise(Strict):
             AcusError: if targets find no room, or lie on the entry.
         """
         return touch_task(self.touch, placed, self.seed)
+
+    @property
+    def is_own_plan(self) -> bool:
+        """Return whether the student chooses the entry, so that the plan is judged."""
+        return isinstance(self.plan, OwnPlan)
+
+    @property
+    def needs_field(self) -> bool:
+        """Return whether it asks what lies in the patient where the needle is, or is planned to."""
+        judged = self.rules.forbidden or OF_OWN_PLANS & self.tolerances.keys()
+        return self.tissue is not TissueSource.LAYERS or bool(judged)
+
+    def bands_for(self, hand: str) -> HandName | None:
+        """Return whose bands a hand is judged by, as a record names it; None for the tolerances."""
+        whose = OF_HANDS.get(hand)
+        return whose if whose in self.bands else None
+
+    def tolerances_for(self, hand: str) -> Mapping[str, Tolerance]:
+        """Return what an attempt with a hand is judged by."""
+        whose = self.bands_for(hand)
+        return judged_by_hand(self.tolerances, None if whose is None else self.bands[whose])
 
     @property
     def guidance_mode(self) -> GuidanceMode:

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Final
 
-from app.exercises.parts import KILOPASCAL, LayerPart, LayersFrom, TissueSource
+from app.exercises.hand_bands import bands_among
+from app.exercises.parts import KILOPASCAL, OF_OWN_PLANS, LayerPart, LayersFrom, TissueSource
 from app.imaging.tissue import Tissue, tissue_along
 from app.simulation.bound_field import MOVING
 from app.simulation.scene import BONE, FAT, LIVER, LUNG, MUSCLE, SKIN, TissueLayer
@@ -135,9 +136,10 @@ def with_tissue(
 def in_layers(exercise: Exercise) -> Exercise:
     """Return an exercise without a patient: tissue in layers, by the effects' first models.
 
-    For what needs no patient, as a check of robot and cameras; nothing that is met fails it.
+    For what needs no patient, as a check of robot and cameras; nothing that is met fails it, and no
+    plan is judged.
     """
-    if exercise.tissue is TissueSource.LAYERS and not exercise.rules.forbidden:
+    if not exercise.needs_field:
         return exercise
     first = {"model": ""} if exercise.tissue is not TissueSource.LAYERS else {}
     effects = {
@@ -145,7 +147,16 @@ def in_layers(exercise: Exercise) -> Exercise:
         for name, part in exercise.effects.items()
     }
     rules = exercise.rules.model_copy(update={"forbidden": ()})
-    changes = {"tissue": TissueSource.LAYERS, "effects": effects, "rules": rules}
+    judged = {
+        name: bands for name, bands in exercise.tolerances.items() if name not in OF_OWN_PLANS
+    }
+    changes = {
+        "tissue": TissueSource.LAYERS,
+        "effects": effects,
+        "rules": rules,
+        "tolerances": judged,
+        "bands": bands_among(exercise.bands, judged),
+    }
     return exercise.model_copy(update=changes)
 
 

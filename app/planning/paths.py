@@ -30,6 +30,7 @@ from app.imaging.skin import SkinPatch
 from app.imaging.volume import Volume
 from app.planning.clearance import Field
 from app.planning.errors import PlanError
+from app.planning.field_clearance import ClearField
 from app.planning.limits import ReachLimits
 from app.planning.placement import Placement
 from app.planning.plan import Plan
@@ -136,7 +137,8 @@ class Weights:
         most_lung_mm, most_vessel_mm, most_gut_mm, most_heart_mm: through these, where a tissue
             field tells of them and the target does not lie in them; looked at each millimetre.
         pleura: weight of the angle at which the lung is entered that holds the target.
-        free_mm: structures further away than their warning distance by this cost nothing.
+        free_mm: structures further away than their warning distance by this cost nothing, nor do
+            bone, lung, vessels, gut and heart of the tissue field that are further away than this.
     """
 
     length: float = 1.0
@@ -168,6 +170,8 @@ class PathScores:
         lung_mm, vessel_mm, gut_mm, heart_mm: length through these, by the tissue field; 0 for what
             holds the target, NaN without a field.
         pleural_deg: between path and the pleura's normal, NaN where the lung is not entered.
+        clear_mm: distance from the nearest of these that the path should not meet; infinite
+            without any, NaN where blocked and without a field.
         nearest_mm: distance from the nearest structure that is to be avoided; infinite without.
         nearest: its number in `names`, -1 without.
         names: of the structures.
@@ -185,6 +189,7 @@ class PathScores:
     gut_mm: FloatArray
     heart_mm: FloatArray
     pleural_deg: FloatArray
+    clear_mm: FloatArray
     nearest_mm: FloatArray
     nearest: NDArray[np.intp]
     names: tuple[str, ...] = field(default=())
@@ -253,8 +258,15 @@ def score_paths(
         )
     progress.report(1.0, sentence("paths scored"))
     columns: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
-    score, block, length, angle, bone, *others, pleura, nearest, which = columns
+    block, length, angle, bone, *others, pleura, nearest, which, worst = columns
     lung, vessel, gut, heart = others
+    clear = np.full(len(block), np.nan)
+    free = np.flatnonzero(block == 0)
+    if tissues is not None and free.size:
+        clear[free] = _clear(tissues, target, skin.points_mm[free], weights)
+        worst[free] = np.maximum(worst[free], crowding(clear[free], weights))
+    score = points(length, angle, worst, pleura, weights, longest_mm(weights, limits))
+    score[block != 0] = np.nan
     names = tuple(structure.name for structure, _ in avoided)
     return PathScores(
         target_mm=target,
@@ -269,6 +281,7 @@ def score_paths(
         gut_mm=gut,
         heart_mm=heart,
         pleural_deg=pleura,
+        clear_mm=clear,
         nearest_mm=nearest,
         nearest=which,
         names=names,
@@ -293,7 +306,7 @@ def _chunk(
     cosine = np.clip(-(way * outward).sum(axis=1), -1.0, 1.0)
     angle = np.arccos(cosine) / DEGREE
     block = np.zeros(count, np.intp)
-    longest = min(weights.longest_mm, limits.depth_limit / MILLIMETRE)
+    longest = longest_mm(weights, limits)
     _mark(block, (length > longest) | (length < 1.0), PathObstacle.LONG)
     _mark(block, angle > weights.flattest_deg, PathObstacle.FLAT)
     _mark(block, ~_reached(way, block == 0, placement, limits), PathObstacle.REACH)
@@ -334,17 +347,62 @@ def _chunk(
         _mark(block, others["gut"] > weights.most_gut_mm, PathObstacle.GUT)
         _mark(block, others["heart"] > weights.most_heart_mm, PathObstacle.HEART)
         _mark(block, nearest <= 0.0, PathObstacle.STRUCTURE)
+    return block, length, angle, bone, *others.values(), pleura, nearest, which, worst
+
+
+def points(
+    length_mm: FloatArray,
+    angle_deg: FloatArray,
+    worst: FloatArray,
+    pleural_deg: FloatArray,
+    weights: Weights,
+    longest: float,
+) -> FloatArray:
+    """Return the score of paths that are not blocked, 100 to 0, shape (n,).
+
+    Args:
+        length_mm: of the paths.
+        angle_deg: between path and the skin's normal.
+        worst: how near they come to what is to be avoided, 0 far enough to 1 on it.
+        pleural_deg: between path and the pleura's normal, NaN where the lung is not entered.
+        weights: what counts how much.
+        longest: path that is allowed [mm].
+    """
     cost = (
-        weights.length * np.clip(length / longest, 0.0, 1.0)
-        + weights.angle * np.clip(angle / weights.flattest_deg, 0.0, 1.0)
+        weights.length * np.clip(length_mm / longest, 0.0, 1.0)
+        + weights.angle * np.clip(angle_deg / weights.flattest_deg, 0.0, 1.0)
         + weights.clearance * worst
     )
-    entered = np.isfinite(pleura)
-    cost += np.where(entered, weights.pleura * np.nan_to_num(pleura) / 90.0, 0.0)
+    entered = np.isfinite(pleural_deg)
+    cost = cost + np.where(entered, weights.pleura * np.nan_to_num(pleural_deg) / 90.0, 0.0)
     most = weights.length + weights.angle + weights.clearance + weights.pleura * entered
-    score = 100.0 * (1.0 - cost / most)
-    score[block != 0] = np.nan
-    return score, block, length, angle, bone, *others.values(), pleura, nearest, which
+    result: FloatArray = 100.0 * (1.0 - cost / most)
+    return result
+
+
+def longest_mm(weights: Weights, limits: ReachLimits) -> float:
+    """Return how long a path may be [mm]."""
+    return min(weights.longest_mm, limits.depth_limit / MILLIMETRE)
+
+
+def crowding(clear_mm: FloatArray, weights: Weights) -> FloatArray:
+    """Return how near to what they should not meet paths come, 0 far enough to 1 on it."""
+    result: FloatArray = np.clip(1.0 - clear_mm / weights.free_mm, 0.0, 1.0)
+    return result
+
+
+def _clear(
+    tissues: TissueField, target: FloatArray, entries: FloatArray, weights: Weights
+) -> FloatArray:
+    """Return how far paths stay from what the tissue field says they should not meet [mm]."""
+    about = ClearField.about(tissues, target, np.vstack([entries, target]), weights.free_mm)
+    parts = []
+    for start in range(0, len(entries), CHUNK):
+        some = entries[start : start + CHUNK]
+        steps = int(np.ceil(np.linalg.norm(target - some, axis=1).max() / STEP_MM)) + 1
+        shares = np.linspace(0.0, 1.0, steps)[None, :, None]
+        parts.append(about.of(some[:, None, :] + shares * (target - some)[:, None, :]).clear_mm)
+    return np.concatenate(parts)
 
 
 def _mark(block: NDArray[np.intp], bad: NDArray[np.bool_], reason: PathObstacle) -> None:

@@ -76,6 +76,8 @@ class Conditions:
             it over.
         computer: how the computer was too slow, and what came of it; empty where it was not.
         drill: what alone was practised (`exercises.drill.DrillKind`); empty for a whole exercise.
+        bands: hand by whose own bands it was judged; empty for the exercise's tolerances.
+        bands_source: where these come from (`exercises.hand_bands.BandsSource`).
     """
 
     exercise: str
@@ -98,6 +100,8 @@ class Conditions:
     taken_over: str = ""
     computer: str = ""
     drill: str = ""
+    bands: str = ""
+    bands_source: str = ""
 
     @property
     def by_person(self) -> bool:
@@ -120,8 +124,9 @@ class Conditions:
         document["kind"] = self.kind.value
         document["views"] = None if self.views is None else list(self.views)
         document["models"] = list(self.models)
-        if not self.drill:
-            del document["drill"]
+        for name in ("drill", "bands", "bands_source"):
+            if not document[name]:
+                del document[name]
         return document
 
     @classmethod
@@ -150,7 +155,7 @@ class Conditions:
 
 _TEXTS: Final = (
     *("content", "hand", "scripted", "device", "ct", "software", "calibration"),
-    *("taken_over", "computer", "drill"),
+    *("taken_over", "computer", "drill", "bands", "bands_source"),
 )
 
 
@@ -211,6 +216,7 @@ def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:
         _differ("hand", a.hand, b.hand),
         _differ("scripted trainee", a.scripted, b.scripted),
         _differ("taken over by", a.taken_over, b.taken_over),
+        _differ("bands", a.bands, b.bands),
         sentence("what robot it was is not known of one of them")
         if DeviceKind.UNKNOWN in (a.kind, b.kind)
         else _differ("robot", a.kind.value, b.kind.value),

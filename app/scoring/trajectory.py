@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.core.messages import sentence
+from app.planning.judged_plan import JudgedPlan
 from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
@@ -73,6 +74,8 @@ class Trajectory:
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
         touches: targets that were to be touched; None where there were none.
         met: what the needle met in the patient; None where nothing could tell.
+        planned: what a planner says of the path that the student chose; None where it was given, or
+            nothing could tell.
         computer: time of pauses because the computer was too slow for its simulated cameras [s].
         scoring_version: of the rules that it is measured by (`scoring.version`).
         seen_from: from this depth of the tip on the cameras see the marker wherever the needle
@@ -102,6 +105,7 @@ class Trajectory:
     clamped: NDArray[np.bool_] | None = None
     touches: Touches | None = None
     met: tuple[Met, ...] | None = None
+    planned: JudgedPlan | None = None
     computer: float = 0.0
     scoring_version: int = SCORING_VERSION
     seen_from: float = np.inf

@@ -13,7 +13,7 @@ KNOWN_VERSIONS: Final = (5, 6, SCORING_VERSION)
 """Versions whose rules this program still has, so that a score is checked by its own. What changed:
 
 7: what an attempt was like counts as far as its target was reached; an insertion that nobody saw
-begin counts as unseen from where the needle was seen last.
+begin counts as unseen from where the needle was seen last; a plan of the student's own is judged.
 6: the spectral arc length takes each picture once and smooths no more than its noise asks for; what
 the rules forbid to be met fails the attempt.
 """

@@ -21,6 +21,8 @@ from app.session.errors import RecordingError, SessionError
 from app.session.header import Attachment
 from app.session.journal import Journal, Step, carry_out, sealing
 from app.session.machine import Attempt
+from app.session.planned import event_of as event_of_plan
+from app.session.planned import judged_plan_of
 from app.session.recorder import Recorder
 from app.session.recording import Recording, deferred_inputs
 from app.session.result import AttemptResult
@@ -62,6 +64,7 @@ class AttemptLog:
         scans: control scans taken.
         risks: structures that the needle has to keep away from.
         tissues: field of the patient that tells what the needle met; None for none.
+        judges_plan: whether the student chose the path, so that it is judged.
     """
 
     recorder: Recorder
@@ -72,6 +75,7 @@ class AttemptLog:
     scans: int = 0
     risks: tuple[Risk, ...] = ()
     tissues: TissueField | None = None
+    judges_plan: bool = False
 
     def open(self, threaded: bool) -> str:
         """Start recording; returns why it cannot be recorded, or nothing."""
@@ -109,6 +113,9 @@ class AttemptLog:
             met = tissues_met_of(samples, self.placed, self.tissues, felt)
             for event in events_of(met, samples):
                 self.event(event)
+            planned = judged_plan_of(self.placed, self.tissues) if self.judges_plan else None
+            if planned is not None and len(samples.time):
+                self.event(event_of_plan(planned, float(samples.time[-1])))
             path = trajectory(
                 samples,
                 self.placed,
@@ -122,6 +129,7 @@ class AttemptLog:
                 met,
                 computer=waited_for_computer(self.events),
                 seen_from=seen_from(attached),
+                planned=planned,
             )
             score = self.scorer(path)
         except AcusError as error:

@@ -67,7 +67,12 @@ def hand_of(trainee: Mapping[str, str], asked: str = "") -> str:
 
 CONDITIONS: Final = "conditions"
 """Metadata record of what the exercise sets: `level`, `views`, `assistance`, `content`,
-`drill`."""
+`drill`; and by whose bands the attempt is judged."""
+
+BANDS: Final = "bands"
+BANDS_SOURCE: Final = "bands_source"
+"""Keys of that record: the hand whose own bands judge, and where these come from; not there where
+the exercise's tolerances do."""
 
 AGREEMENT: Final = "agreement"
 """Metadata record of the registration check in force: `radius_mm`, `check` (its id)."""
@@ -119,6 +124,8 @@ def conditions_of(
         taken_over=_taken_over(events),
         computer=computer_of(events),
         drill=said.get("drill", ""),
+        bands=said.get(BANDS, ""),
+        bands_source=said.get(BANDS_SOURCE, ""),
     )
 
 

@@ -15,7 +15,14 @@ from app.core.errors import AcusError
 from app.core.paths import sessions
 from app.device.checkpoint import Checkpoint
 from app.planning.placement import PlacedPlan
-from app.session.conditions import AGREEMENT, TRAINEE, hand_of
+from app.session.conditions import (
+    AGREEMENT,
+    BANDS,
+    BANDS_SOURCE,
+    CONDITIONS,
+    TRAINEE,
+    hand_of,
+)
 from app.session.facts import PLAN, plan_record
 from app.session.header import TRASH, Attachment, SessionHeader, new_id
 from app.session.recorder import Recorder
@@ -62,6 +69,7 @@ class RunContext:
         """
         trainee = dict(self.metadata.get(TRAINEE, {}))
         trainee["hand"] = hand_of(trainee, hand)
+        bands = self._bands(exercise, trainee["hand"])
         agreement = dict(self.agreement(placed))
         checked = {AGREEMENT: agreement} if agreement else {}
         started = self.wall()
@@ -74,9 +82,23 @@ class RunContext:
             exercise_title=exercise.title,
             exercise_version=exercise.version,
             seed=self.seed,
-            metadata={PLAN: plan_record(placed), **self.metadata, TRAINEE: trainee, **checked},
+            metadata={
+                PLAN: plan_record(placed),
+                **self.metadata,
+                TRAINEE: trainee,
+                **bands,
+                **checked,
+            },
             attachments=(*self.plan_files(placed), *self.attachments),
         )
+
+    def _bands(self, exercise: Exercise, hand: str) -> dict[str, dict[str, str]]:
+        """Return the record of conditions with whose bands judge; nothing without."""
+        whose = exercise.bands_for(hand)
+        if whose is None:
+            return {}
+        said = {BANDS: whose.value, BANDS_SOURCE: exercise.bands[whose].source.value}
+        return {CONDITIONS: {**self.metadata.get(CONDITIONS, {}), **said}}
 
     def _free_id(self, started: datetime) -> str:
         """Return an id that no record has, deleted ones included; the last one tried if all have.

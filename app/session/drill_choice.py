@@ -14,7 +14,7 @@ from app.scoring.result import Score
 from app.session.along_path import AlongPath
 from app.session.conditions import EXERCISE_FILE
 from app.session.machine import State
-from app.session.reasons import ACROSS, ALONG, AttemptEvidence, pushed_outside
+from app.session.reasons import ACROSS, ALONG, PLANS, AttemptEvidence, pushed_outside
 from app.session.recording import Recording
 
 _TIMES: Final = frozenset({"total_time", "aligning_time"})
@@ -34,7 +34,7 @@ def exercise_in(recording: Recording) -> Exercise | None:
 def drill_for(
     score: Score | None, past: AttemptEvidence, exercise: Exercise | None
 ) -> DrillKind | None:
-    """Return the drill for what cost most; None where nothing did, or nothing may be practised.
+    """Return the drill for what cost most; None where nothing did, or there is no drill for it.
 
     Args:
         score: of the attempt; None where nothing was judged.
@@ -48,6 +48,8 @@ def drill_for(
     if exercise.touch is not None:
         return DrillKind.REPEAT
     metric, way = score.losses[0][1].name, past.way
+    if metric in PLANS:  # a drill is given its plan: what is to be practised is the whole
+        return None
     if metric == "breath_offset" or (metric in ACROSS | ALONG and pushed_outside(past) is not None):
         return DrillKind.BREATH
     if metric == "angle_at_skin" or (metric in ACROSS and _begun_askew(past)):

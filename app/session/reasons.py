@@ -16,12 +16,14 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
+from app.planning.judged_plan import JudgedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.scoring.tolerance import Bands
 from app.session.along_path import GAP_S, RUNS, AlongPath
 from app.session.machine import State
+from app.session.planned import plan_sentences
 
 LEAST_MM: Final = 0.3
 """Less than this towards a side, or along the path, is not spoken of [mm]: no camera knows it."""
@@ -61,6 +63,7 @@ ENDED_ASIDE: Final = frozenset({"lateral_error", "planned_target_error", "target
 
 FORCE: Final = frozenset({"peak_force", "mean_force", "guidance_work", "saturation"})
 RISKS: Final = frozenset({"risk_breach", "risk_distance", "risk_time"})
+PLANS: Final = frozenset({"plan_score", "plan_clearance"})
 STAGES: Final = {
     "aligning_time": State.ALIGNING,
     "insertion_time": State.INSERTING,
@@ -91,6 +94,7 @@ class AttemptEvidence:
         origin: monotonic time from which moments are counted [s].
         met: what the needle met.
         risks: how near it came to structures of risk.
+        planned: what a planner says of the student's own path; None where it was given.
         scans: moments of the control scans [s], monotonic.
         depth_error_mm: the score's own, positive beyond the target; None where it has none.
         depth_sd_mm: its standard deviation; 0 where not known.
@@ -103,6 +107,7 @@ class AttemptEvidence:
     origin: float = 0.0
     met: Sequence[Met] = ()
     risks: Sequence[RiskMark] = ()
+    planned: JudgedPlan | None = None
     scans: Sequence[float] = ()
     depth_error_mm: float | None = None
     depth_sd_mm: float = 0.0
@@ -138,6 +143,8 @@ def reasons(metric: str, past: AttemptEvidence) -> tuple[str, ...]:
         parts.append(_risk)
     if metric in ("control_scans", "notional_dose"):
         parts.append(_scans)
+    if metric in PLANS and past.planned is not None:
+        return plan_sentences(past.planned)
     kinds = TISSUES.get(metric, ())
     tissues = _tissues(past, kinds) if kinds else ()
     return (*(text for part in parts for text in part(past)), *tissues)

@@ -20,6 +20,7 @@ from app.session.control_scan import ControlScan, scan_marks, scans_of
 from app.session.ct_facts import CtFacts
 from app.session.errors import BrokenRecordingError, BudgetExceededError
 from app.session.facts import PLAN, placed_plan
+from app.session.planned import judged_plan
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
 from app.session.samples import Samples, bends, flags, floats, known, spreads, vectors, words
@@ -107,6 +108,7 @@ class Recording:
             tissues_met(self.events),
             computer=waited_for_computer(self.events),
             seen_from=seen_from(self.attachments),
+            planned=judged_plan(self.events),
         )
 
     def placed_plan(self) -> PlacedPlan:

@@ -37,6 +37,7 @@ from app.session.needle import FROM_CAMERAS
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
+from app.session.planned import judged_plan
 from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import Recording
 from app.session.result import AttemptResult
@@ -303,6 +304,7 @@ def review(recording: Recording) -> Review:
         origin=origin,
         met=tissues_met(recording.events) or (),
         risks=risk_marks(recording.events),
+        planned=judged_plan(recording.events),
         scans=tuple(event.time for event in recording.events if event.kind == "scan"),
         depth_error_mm=None if deep is None else deep.value,
         depth_sd_mm=0.0 if deep is None else deep.sd or 0.0,

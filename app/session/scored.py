@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
+from app.planning.judged_plan import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.scoring.met import Met
 from app.scoring.result import Score
@@ -76,6 +77,7 @@ def trajectory(
     met: tuple[Met, ...] | None = None,
     computer: float = 0.0,
     seen_from: float = np.inf,
+    planned: JudgedPlan | None = None,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -97,6 +99,7 @@ def trajectory(
         met: what the needle met; None where nothing could tell.
         computer: time of pauses for simulated pictures that came late [s].
         seen_from: depth from which on the cameras can see the marker, as the record has it [m].
+        planned: what a planner says of the student's own path; None where it was given.
 
     Raises:
         SessionError: if no sample has a direction of the needle.
@@ -133,6 +136,7 @@ def trajectory(
         agreement=agreement,
         touches=touches,
         met=met,
+        planned=planned,
         computer=computer,
         seen_from=seen_from,
         clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
@@ -151,9 +155,10 @@ def _phases(states: NDArray[np.str_]) -> NDArray[np.str_]:
     return np.where(states == State.WITHDRAWING.value, State.READY.value, states)
 
 
-def scorer(exercise: Exercise) -> Callable[[Trajectory], Score]:
-    """Return the scorer of an exercise: its tolerances and its rules."""
-    return lambda path: score(path, exercise.tolerances, exercise.rules)
+def scorer(exercise: Exercise, hand: str = "") -> Callable[[Trajectory], Score]:
+    """Return the scorer of an exercise: its tolerances, by the bands of a hand, and its rules."""
+    tolerances = exercise.tolerances_for(hand)
+    return lambda path: score(path, tolerances, exercise.rules)
 
 
 def score_document(score: Score) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
-from app.session.conditions import ARM, POINTERS, TAKEN_OVER, hand_of
+from app.session.conditions import ARM, POINTERS, TAKEN_OVER, TRAINEE, hand_of
 from app.session.context import RunContext
 from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
@@ -112,7 +112,6 @@ class Trainer:
         self._exercise = exercise
         self._touching = self._to_touch(placed)
         self._dial = exercise.assistance if dial is None else dial
-        self._scorer = scorer(exercise)
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
         self._advance = advance
@@ -238,9 +237,10 @@ class Trainer:
             log = AttemptLog(
                 recorder,
                 self._placed,
-                self._scorer,
+                scorer(self._exercise, header.metadata[TRAINEE]["hand"]),
                 risks=self._risks,
                 tissues=self._tissues,
+                judges_plan=self._exercise.is_own_plan,
             )
             # Head and checkpoint are on the disk before the attempt's clock starts.
             failure = log.open(threaded=self._ticker is not None)

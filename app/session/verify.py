@@ -14,6 +14,7 @@ from pydantic import ValidationError
 
 from app.core.errors import AcusError
 from app.core.messages import sentence
+from app.exercises.hand_bands import HandBands, judged_by_hand
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
@@ -22,7 +23,7 @@ from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
 from app.scoring.version import KNOWN_VERSIONS, SCORING_VERSION
-from app.session.conditions import EXERCISE_FILE, conditions_of
+from app.session.conditions import BANDS, CONDITIONS, EXERCISE_FILE, conditions_of
 from app.session.machine import FINAL
 from app.session.recording import Recording
 from app.session.sample_columns import SAMPLES_FILE
@@ -241,14 +242,19 @@ def _names(versions: Iterable[int]) -> str:
 def judged_by(
     recording: Recording, written: Score | None
 ) -> tuple[Mapping[str, Tolerance], ScoreRules]:
-    """Return tolerances and rules: the attached exercise's, else those of the written score."""
+    """Return tolerances and rules: the attached exercise's, else those of the written score.
+
+    Where the record says so, by the bands of the hand that made the attempt.
+    """
     try:
         exercise = json.loads(recording.attachments[EXERCISE_FILE])
         tolerances = {
             str(name): Tolerance.model_validate(limits)
             for name, limits in exercise["tolerances"].items()
         }
-        return tolerances, ScoreRules.model_validate(exercise["rules"])
+        whose = recording.metadata.get(CONDITIONS, {}).get(BANDS, "")
+        bands = HandBands.model_validate(exercise["bands"][whose]) if whose else None
+        return judged_by_hand(tolerances, bands), ScoreRules.model_validate(exercise["rules"])
     except (KeyError, TypeError, AttributeError, ValueError, ValidationError, RecursionError):
         pass  # a damaged exercise: the score carries what it was judged by
     if written is None:

@@ -55,7 +55,14 @@ def parse(text: str) -> list[dict[str, str]]:
 def test_one_row_per_attempt_with_units_in_the_column_names() -> None:
     (row,) = parse(score_table([SCORED]))
     metrics = ["lateral_error_mm", "angle_error_deg", "path_ratio_ratio"]
-    assert list(row) == [*FIXED, *metrics, *(f"{name}_sd" for name in metrics), "drill", "note"]
+    assert list(row) == [
+        *FIXED,
+        *metrics,
+        *(f"{name}_sd" for name in metrics),
+        "drill",
+        "bands",
+        "note",
+    ]
     assert row["score_total_percent"] == "86.5"
     assert row["lateral_error_mm"] == "2.125"
     assert row["lateral_error_mm_sd"] == "0.125"
@@ -81,11 +88,11 @@ def test_a_passed_drill_is_marked_and_moves_no_other_column() -> None:
     assert [(row["passed"], row["drill"]) for row in rows] == [
         ("true", "depth"), ("true", ""), ("true", ""),
     ]  # fmt: skip
-    assert list(rows[0])[-2:] == ["drill", "note"]
+    assert list(rows[0])[-3:] == ["drill", "bands", "note"]
 
 
 def test_no_attempts_give_the_column_names_alone() -> None:
-    assert score_table([]) == ",".join([*FIXED, "drill", "note"]) + "\r\n"
+    assert score_table([]) == ",".join([*FIXED, "drill", "bands", "note"]) + "\r\n"
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "\n=1"])
@@ -150,3 +157,9 @@ def test_the_file_begins_with_the_mark_that_spreadsheets_look_for(tmp_path: Path
     (tmp_path / "file").write_text("")
     with pytest.raises(ExportError, match="cannot write"):
         write_csv(tmp_path / "file" / "x.csv", "")
+
+
+def test_whose_bands_judged_stands_in_its_row() -> None:
+    made = Conditions("liver-01", hand="mouse", bands="mouse", bands_source="scripts")
+    rows = parse(score_table([replace(SCORED, conditions=made), SCORED]))
+    assert [row["bands"] for row in rows] == ["mouse (scripts)", ""]

@@ -195,3 +195,12 @@ def test_an_exercise_is_frozen(tmp_path: Path) -> None:
     exercise = read(tmp_path, "")
     with pytest.raises(ValueError, match="frozen"):
         exercise.seed = 3  # type: ignore[misc]
+
+
+def test_a_plan_is_judged_only_where_the_student_makes_it(tmp_path: Path) -> None:
+    judged = "tolerances:\n  plan_score: {expert: 75, good: 65, pass: 50}\n"
+    with pytest.raises(ConfigurationError, match="own: true"):
+        read(tmp_path, judged)
+    own = read(tmp_path, judged + "plan: {own: true}\n")
+    assert own.needs_field, "else nothing could tell what lies on the path"
+    assert not read(tmp_path, "").needs_field

@@ -12,12 +12,15 @@ from app.exercises.parts import TELLING, ViewName
 from app.exercises.scene import device_of, draft_of, plan_of
 from app.exercises.schema import Exercise
 from app.imaging.phantom.anatomy import anatomy
+from app.planning.judged_plan import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.planning.reach import reach
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
+from app.scoring.rows import REACHING
 from app.scoring.score import score
+from app.scoring.touches import Touches
 from app.scoring.trajectory import Trajectory
 
 SHIPPED = [
@@ -66,6 +69,7 @@ def attempt(exercise: Exercise, badness: float, seed: int) -> Score:
             for part in exercise.structures
             for name, limit in part.risks.items()
         ),
+        planned=JudgedPlan(90.0 * (1.0 - badness), 75.0, 10.0, 9.0 * (1.0 - badness)),
     )
     return score(trajectory, exercise.tolerances, exercise.rules)
 
@@ -130,3 +134,48 @@ def test_an_entry_can_be_found_for_the_exercise_without_one() -> None:
     assert reach(possible, exercise.placement.placement(), device_of(exercise)).reachable
     with pytest.raises(ExerciseError, match="places the entry"):
         plan_of(exercise)
+
+
+def stopped_short(exercise: Exercise, short: float, seconds: float) -> Score:
+    """Score a needle that goes straight down the line, quickly, gently, and stops short [m]."""
+    plan = Plan((0.0, -95.0, 300.0), (20.0, -20.0, 310.0))
+    placed = PlacedPlan.of(plan, exercise.placement.placement(), FULCRUM)
+    time = np.linspace(0.0, seconds, 1500)
+    share = np.clip((time / seconds - 0.1) / 0.3, 0.0, 1.0)
+    depth = share * (placed.length - short)
+    n = len(time)
+    trajectory = Trajectory(
+        placed=placed,
+        time=time,
+        tip=placed.p_entry + np.outer(depth, placed.axis),
+        axis=np.tile(placed.axis, (n, 1)),
+        depth=depth,
+        felt=np.zeros((n, 3)),
+        phase=np.where(share > 0.0, "inserting", "aligning"),  # type: ignore[arg-type]
+        depth_valid=np.ones(n, dtype=bool),
+        risks=tuple(
+            RiskMark(name, limit, limit + 30.0, time[-1], 60.0, 0.0)
+            for part in exercise.structures
+            for name, limit in part.risks.items()
+        ),
+        touches=Touches(6, ()) if exercise.touch else None,
+        met=(),
+        planned=JudgedPlan(100.0, 60.0, 0.0, 30.0),
+    )
+    return score(trajectory, exercise.tolerances, exercise.rules)
+
+
+@pytest.mark.parametrize("name", [*SHIPPED, "laparoscopic-tool"])
+@pytest.mark.parametrize("short", [71e-3, 30e-3, 6e-3])
+def test_a_needle_that_stops_short_of_its_target_earns_nothing(name: str, short: float) -> None:
+    """Straight, quick, gentle, without a scan, far from every risk: and not there."""
+    result = stopped_short(load_exercise(name), short, 16.0)
+    assert result.total == pytest.approx(0.0)
+    assert not result.passed
+    bound = [row.name for row in result.rows if row.weight and row.name not in REACHING]
+    assert bound, "something else than the place counts"
+    for metric in bound:
+        row = result.row(metric)
+        assert row.gate == 0.0
+        assert row.counted == 0.0
+    assert any((result.row(metric).utility or 0.0) == 1.0 for metric in bound), "good in itself"

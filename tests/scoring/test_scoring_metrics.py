@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scoring_attempts import Attempt, placed_plan
 
+from app.planning.judged_plan import JudgedPlan
 from app.planning.placement import PatientOrientation, Placement
 from app.scoring import metrics
 from app.scoring.errors import MetricUnavailableError, UnknownMetricError
@@ -64,6 +65,7 @@ def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
         "clamped": np.zeros(len(base), dtype=bool),
         "touches": Touches(2, (float(base.time[-1]),)),
         "met": (RIB, LUNG),
+        "planned": JudgedPlan(60.0, 80.0, 12.0, 5.0, "rib", 9.0),
     }
     trajectory = Attempt(noise=1e-4, force=1.0).trajectory(**facts)
     assert np.isfinite(value(name, trajectory))

@@ -166,6 +166,9 @@ MET = {
     *("pleural_crossings", "pleural_angle", "lung_crossed", "organ_crossed"),
 }
 """Metrics of what the needle met, which need a tissue field."""
+PLANS = {"plan_score", "plan_clearance"}
+"""Metrics of a plan of the student's own."""
+
 TOUCHES = {"targets_touched", "time_per_target", "economy_of_motion"}
 """Metrics of targets to be touched, which only some exercises have."""
 
@@ -178,7 +181,7 @@ def test_what_the_exercise_does_not_have_is_a_row_only_where_it_has_a_tolerance(
 
 def test_metrics_without_a_tolerance_are_shown_and_not_counted() -> None:
     result = score(PERFECT.trajectory(), {"angle_error": bands(1, 2, 3)})
-    assert {row.name for row in result.rows} == set(available()) - RISKS - TOUCHES - MET - {
+    assert {row.name for row in result.rows} == set(available()) - RISKS - TOUCHES - MET - PLANS - {
         "breath_offset"
     }
     assert result.rows[0].name == "angle_error"

@@ -30,6 +30,10 @@ WALL = datetime(2026, 1, 15, 9, 31, 22, 418000, tzinfo=UTC)
 EXERCISE = SimpleNamespace(
     effects={},
     drill=None,
+    is_own_plan=False,
+    bands={},
+    bands_for=lambda hand: None,
+    tolerances_for=lambda hand: DEFAULT_TOLERANCES,
     id="liver-01",
     title="Liver, first insertion",
     version=1,

@@ -207,3 +207,10 @@ def test_aligning_alone_keeps_pass_mark_and_pauses_of_the_rules_and_no_other_rul
         pass_mark=71.0, minimum_tracking=0.0, maximum_pause=12.0
     )
     assert drilled(whole, DrillKind.DEPTH, placed_plan()).rules == rules
+
+
+def test_what_a_plan_cost_is_practised_by_planning_and_no_drill_asks_for_it():
+    whole = load_exercise("plan-it-yourself")
+    assert drill_for(lost("plan_score"), STRAIGHT, whole) is None
+    for kind in DrillKind:
+        assert "plan_score" not in drilled(whole, kind, placed_plan()).tolerances

@@ -16,6 +16,9 @@ from app.exchange.csv_export import trajectory_table
 from app.imaging.field import TissueKind
 from app.scoring.result import Score, judge
 from app.scoring.rows import ScoreRules
+from app.session.along_path import AlongPath
+from app.session.planned import judged_plan
+from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import messages_agree, read_recording
 from app.session.replay import contents
 from app.session.tissue_force import feels_along
@@ -234,3 +237,40 @@ def test_rules_refuse_a_tissue_that_there_is_none_of() -> None:
         ScoreRules(forbidden=("granite",))
     with pytest.raises(ValueError, match="forbidden twice"):
         ScoreRules(forbidden=("bone", "bone"))
+
+
+def test_a_plan_of_the_students_own_is_judged_and_scored_from_the_record_again(
+    bench: Bench,
+) -> None:
+    bench.trainer._exercise.is_own_plan = True
+    result = attempt(bench, body(rib(20.0, 8.0), (Kind.LUNG, "", beyond((0, 1, 0), 70.0))))
+    recording = read_recording(result.record)
+    planned = judged_plan(recording.events)
+    assert planned == result.trajectory.planned == recording.trajectory().planned
+    assert planned.length_mm == pytest.approx(60.0)
+    assert planned.angle_deg == pytest.approx(0.0, abs=1.5)
+    assert planned.clear_mm == pytest.approx(4.0, abs=0.6)
+    values = {row.name: row.value for row in result.score.rows}
+    assert values["plan_score"] == planned.points
+    assert values["plan_clearance"] == planned.clear_mm
+    assert verify(recording).confirmed
+    past = AttemptEvidence(
+        AlongPath.of(recording.samples, recording.placed_plan()), planned=planned
+    )
+    assert reasons("plan_score", past)[0] == "The path comes within 4.0 mm of rib, 20 mm deep."
+
+
+def test_a_plan_that_was_given_is_nobodys_to_be_judged(bench: Bench) -> None:
+    result = attempt(bench, body(rib(20.0, 8.0)))
+    assert result.trajectory.planned is None
+    assert not {"plan_score", "plan_clearance"} & {row.name for row in result.score.rows}
+    assert judged_plan(result.events) is None
+
+
+@pytest.mark.parametrize("damage", [{"points": 1e9}, {"meets": 3}, {"clear_mm": "far"}])
+def test_a_damaged_word_on_a_plan_is_none(bench: Bench, damage) -> None:
+    bench.trainer._exercise.is_own_plan = True
+    events = attempt(bench, body(rib(20.0, 8.0))).events
+    (kept,) = [event for event in events if event.kind == "plan"]
+    assert judged_plan([kept]) is not None
+    assert judged_plan([replace(kept, data=dict(kept.data) | damage)]) is None

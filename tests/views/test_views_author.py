@@ -190,6 +190,9 @@ def test_the_types_set_path_pictures_and_dial(form, author):
         box.setCurrentIndex(place)
         box.activated.emit(place)
         assert box.currentData() == words
+        judged = "plan_score" in author.editor.get("tolerances", default={})
+        assert judged == (words == "own"), "a plan counts where the student makes it"
+        assert not author.editor.problems_at("tolerances")
     form.undo.click()
     assert author.editor.get("guidance", "mode") == "control_ct"
     assert author.editor.exercise.shown_views == ("three_d",)

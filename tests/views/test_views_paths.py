@@ -29,6 +29,7 @@ def scores(values, blocked=()):
         length_mm=np.linspace(40.0, 60.0, count), angle_deg=np.linspace(5.0, 30.0, count),
         bone_mm=np.zeros(count), lung_mm=np.zeros(count), vessel_mm=np.zeros(count),
         gut_mm=np.zeros(count), heart_mm=np.zeros(count), pleural_deg=np.full(count, np.nan),
+        clear_mm=np.linspace(12.0, 3.0, count),
         nearest_mm=np.linspace(4.0, 9.0, count),
         nearest=np.zeros(count, np.intp), names=("Aorta",),
     )  # fmt: skip

@@ -258,6 +258,18 @@ PASS_MARK: Final = 75.0
 """Total needed to pass a new exercise: between what scripted novices and beginners score along a
 path of 75 mm."""
 
+PLANNED: Final = "plan_score"
+OWN_PLAN: Final = {
+    "expert": 75.0,
+    "good": 65.0,
+    "pass": 50.0,
+    "zero": 40.0,
+    "weight": 9.0,
+}
+"""The metric by which a plan of the student's own counts, and its bands and weight in a new
+exercise: half of the score, as in *Plan it yourself*; left out of it where nobody labelled what the
+path goes through."""
+
 
 # --- from the window ----------------------------------------------------------------------------
 def opened_document(
@@ -295,6 +307,8 @@ def opened_document(
                 **{"expert": 0.0, "good": 0.5, "pass": 1.0, "weight": 1.0},
                 "required": True,
             }
+    if is_own(document):
+        document["tolerances"][PLANNED] = dict(OWN_PLAN)
     if like is not None:
         document |= {"device": like.device, "rig": like.rig}
         document["needle"] = like.needle.model_dump(mode="json", exclude_none=True)

@@ -46,13 +46,17 @@ from app.exchange.acusx import (
     unpack,
 )
 from app.exercises.errors import ExerciseError
+from app.exercises.hand_bands import bands_among
 from app.exercises.library import folders
+from app.exercises.parts import OF_OWN_PLANS
 from app.exercises.scene import plan_of
 from app.exercises.schema import Exercise
 from app.exercises.writing import exercise_document, exercise_text, free_id, taken_ids
 from app.imaging.errors import ImagingError
 from app.session.pad.view import rings_of
 from app.views.author.editing import (
+    OWN_PLAN,
+    PLANNED,
     ExerciseEditor,
     Where,
     bone_words,
@@ -278,7 +282,9 @@ class SkillTrial(QObject):
         tolerances = {
             name: one for name, one in exercise.tolerances.items() if not name.startswith("risk_")
         }
-        tried = exercise.model_copy(update={"structures": (), "tolerances": tolerances})
+        bands = bands_among(exercise.bands, tolerances)
+        changes = {"structures": (), "tolerances": tolerances, "bands": bands}
+        tried = exercise.model_copy(update=changes)
         try:
             file.write_text(exercise_text(tried, folders()[1]), encoding="utf-8")
         except (OSError, AcusError) as error:
@@ -503,8 +509,12 @@ class AuthorFeature(Feature):
         if kind == OWN:
             target = plan.get("target_mm") if isinstance(plan, dict) else None
             values["plan",] = {"own": True} | ({"target_mm": target} if target else {})
+            if self.editor.get("tolerances", PLANNED) is None:
+                values["tolerances", PLANNED] = dict(OWN_PLAN)
         elif is_own(self.editor.document):
             values["plan",] = plan_document(edit) if edit.draft.complete else None
+            judged = self.editor.get("tolerances", default={})
+            values |= {("tolerances", name): None for name in OF_OWN_PLANS & judged.keys()}
         scans = kind == SCANS
         values["guidance", "mode"] = "control_ct" if scans else None
         if scans:

@@ -484,6 +484,8 @@ def default_tolerance(metric: str) -> dict[str, Any]:
         "notional_dose": (40.0, 60.0, 95.0),
         "tracking_valid": (99.0, 95.0, 80.0),
         "risk_distance": (10.0, 7.0, 5.0),
+        "plan_score": (75.0, 65.0, 50.0),
+        "plan_clearance": (10.0, 7.0, 5.0),
     }
     higher = metrics.find(metric).higher_is_better
     expert, good, passing = own.get(metric, (3.0, 2.0, 1.0) if higher else (1.0, 2.0, 3.0))
@@ -1109,7 +1111,7 @@ class ScorePage(Form):
     looked_at = Signal()
 
     def __init__(self, editor: ExerciseEditor) -> None:
-        super().__init__(editor, tr("Score"), ("tolerances", "rules"))
+        super().__init__(editor, tr("Score"), ("tolerances", "bands", "rules"))
         there = {name: one for name, one in metrics.available().items() if not one.fault}
         first = [name for name in USUAL if name in there]
         self.metrics = {name: there[name] for name in dict.fromkeys((*first, *there))}

@@ -134,6 +134,7 @@ def short_words(conditions: Conditions | None) -> str:
         hands_word(conditions),
         kind_word(conditions.kind),
         tr("assistance {dial}", dial=dial) if dial else "",
+        tr("bands: {bands}", bands=bands_words(conditions)) if conditions.bands else "",
         tr("▲ model changed meanwhile: {models}", models=models_text(conditions))
         if conditions.models
         else "",
@@ -154,11 +155,23 @@ def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
         (tr("Assistance"), assistance_words(c.assistance)),
         (tr("Views"), _views(c)),
         (tr("Hand and robot"), f"{hands_word(c) or tr('not recorded')}, {_robot(c)}"),
+        *(((tr("Bands"), bands_words(c)),) if c.bands else ()),
         (tr("Screen and needle"), agreement_words(c)),
         *(((tr("Computer"), c.computer),) if c.computer else ()),
         *(((tr("Models changed meanwhile"), models_text(c)),) if c.models else ()),
         (tr("Software"), _software(c)),
     )
+
+
+def bands_words(conditions: Conditions) -> str:
+    """Say by whose bands it was judged, and whose attempts these were fitted to."""
+    source = {
+        "scripts": tr("from scripts, not people"),
+        "people": tr("from people's attempts"),
+        "author": tr("as the exercise's author set them"),
+    }.get(conditions.bands_source, "")
+    hand = hand_word(replace(conditions, hand=conditions.bands, scripted=""))
+    return ", ".join(filter(None, (hand, source)))
 
 
 def assistance_words(dial: Assistance | None) -> str:

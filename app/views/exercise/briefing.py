@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 
 from app.core.words import counted
 from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
-from app.exercises.locks import Lock
+from app.exercises.locks import HandName, Lock
 from app.exercises.parts import OwnPlan, ViewName
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
@@ -63,10 +63,28 @@ def scored_words(exercise: Exercise) -> list[str]:
         _limit_words(declared(known[name].title), known[name].unit, limits)
         for name, limits in counting
     ]
+    said += _hands_words(exercise)
     for part in exercise.structures:
         for name, limit in part.risks.items():
             said.append(tr("{name}: stay {mm:g} mm away", name=name, mm=limit))
     said.append(tr("{mark:g} of 100 points pass.", mark=exercise.rules.pass_mark))
+    return said
+
+
+def _hands_words(exercise: Exercise) -> list[str]:
+    """Say the limits of hands that have their own."""
+    known = available()
+    hands = {
+        HandName.MOUSE: tr("With the mouse"),
+        HandName.TABLET: tr("With the tablet"),
+        HandName.GAMEPAD: tr("With the gamepad"),
+    }
+    said = []
+    for hand, own in exercise.bands.items():
+        for name, limits in exercise.tolerances_for(hand.value).items():
+            if name in own.metrics and name in known:
+                words = _limit_words(declared(known[name].title), known[name].unit, limits)
+                said.append(tr("{hand}: {limits}", hand=hands[hand], limits=words))
     return said
 
 

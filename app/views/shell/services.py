@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.progress import Progress
-from app.exercises.parts import LayersFrom, TissueSource
+from app.exercises.parts import LayersFrom
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
@@ -87,8 +87,7 @@ class RunSetup:
         plan = self.placed.plan if self.exercise.layers_from is LayersFrom.CT else None
         path = None if plan is None else (*plan.entry_mm, *plan.target_mm)
         # A run has the tissue field about its entry, if it looks into it.
-        looks = self.exercise.tissue is not TissueSource.LAYERS or self.exercise.rules.forbidden
-        entry = self.placed.plan.entry_mm if looks else None
+        entry = self.placed.plan.entry_mm if self.exercise.needs_field else None
         about = None if entry is None else tuple(round(float(one) / _ABOUT_MM) for one in entry)
         return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates, path, about
 
