@@ -792,16 +792,76 @@
             <translation type="unfinished">der Roboter hat geantwortet, sendet aber keine Gelenkwinkel; siehe `acus device test`</translation>
         </message>
         <message>
+            <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✖ cannot be used: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--ct DIR needs --plan FILE: entry and target lie in that CT</source>
             <translation type="unfinished">--ct DIR braucht --plan FILE: Einstichpunkt und Ziel liegen in jenem CT</translation>
+        </message>
+        <message>
+            <source>✔ {exercise}: {id}, version {version}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source># nothing is absent without a reason in {id}, version {version}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is in the file</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is not in the file</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file}: {manifest.id}, version {manifest.exercise_version}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id}, version {version} {known:?was there already|taken in}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>there is no script {script!r}; there are {scripts}</source>
             <translation type="unfinished">es gibt kein Skript {script!r}; es gibt {scripts}</translation>
         </message>
         <message>
+            <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>skill        median    quartiles  passed   time</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>all skills in their order: {ordered_seeds:.0%} of the seeds</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>neighbouring skills ordered right, any seed with any: {ordered_share:.0%}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
             <translation type="unfinished">--target {target}: Drei Zahlen X,Y,Z in mm sind nötig</translation>
+        </message>
+        <message>
+            <source>nobody and nothing to show: add students first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} has no attempt at {exercise} that counts</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{form}: the forms are {forms}</source>
@@ -812,16 +872,200 @@
             <translation type="unfinished">--student gilt für pdf; die Tabellen enthalten alle</translation>
         </message>
         <message>
+            <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no trend yet</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{change:+.1f} a time</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source> ({others} not counted)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--ct {ct} does not exist; name a folder or file with a CT</source>
             <translation type="unfinished">--ct {ct} gibt es nicht; nennen Sie einen Ordner oder eine Datei mit einem CT</translation>
+        </message>
+        <message>
+            <source>attempts are kept in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no sessions in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>score: {verdict}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>signature: {verdict}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>admitted by the instructor: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file} is not sealed by this station: lists read the record</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the index was altered: {problem}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>not comparable: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>comparable</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} deleted: `acus session restore {id}` brings it back</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} is back</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} was closed as it stands: listed as unfinished</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} has its end: there was nothing to recover, and nothing was changed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` keeps it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no attempt was cut off in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>nothing to do</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{left:#1 stays|# stay} there, not signed by this station: `acus session list --folder {from}` lists them</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{gathered:#1 attempt|# attempts} brought from {from} to {folder}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>--out {out}: only .csv can be written</source>
             <translation type="unfinished">--out {out}: Nur .csv lässt sich schreiben</translation>
         </message>
         <message>
+            <source>{rows:#1 row|# rows} written to {files}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--trajectory takes exactly one session id</source>
             <translation type="unfinished">--trajectory verlangt genau eine Sitzungskennung</translation>
+        </message>
+        <message>
+            <source>student</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>exercise</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>state</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>duration</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>score</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>signature</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>— altered</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{total:.0f} % passed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{total:.0f} %</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no student's attempt: {hands}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>± {radius:.1f} mm (95 %), median</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>started</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>reason</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{seconds:.1f} s</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>scans</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>file</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>hand</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>whose</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>calibration</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>tip known to</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>published</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>problem</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>study {name} takes no --{option}; leave it out</source>
@@ -2600,8 +2844,8 @@
             <translation type="unfinished">pydicom ist geladen</translation>
         </message>
         <message>
-            <source>{absent} {verb} missing, without which its pixels cannot be told</source>
-            <translation type="unfinished">{absent} {verb} nicht vorhanden; ohne diese Angaben lassen sich die Pixel nicht deuten</translation>
+            <source>missing, without which its pixels cannot be told: {names}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>
@@ -3248,10 +3492,6 @@
             <translation type="unfinished">{listing_path} ist leer; nennen Sie einen Ordner mit DICOM-Dateien</translation>
         </message>
         <message>
-            <source>no DICOM series in {listing_path}: {ignored} {files} ignored ({first_path_name}: {first_reason})</source>
-            <translation type="unfinished">keine DICOM-Serie in {listing_path}: übergangen: {ignored} {files} ({first_path_name}: {first_reason})</translation>
-        </message>
-        <message>
             <source>no series {series_uid} in {listing_path}; it holds {valid}</source>
             <translation type="unfinished">keine Serie {series_uid} in {listing_path}; vorhanden: {valid}</translation>
         </message>
@@ -3344,10 +3584,6 @@
             <translation type="unfinished">neu berechnet aus Schichten mit {narrowest_mm:.3g} bis {widest_mm:.3g} mm Abstand auf {step:.3g} mm</translation>
         </message>
         <message>
-            <source>{empty} {gaps} of missing slices left empty</source>
-            <translation type="unfinished">fehlende Schichten leer gelassen: {empty} {gaps}</translation>
-        </message>
-        <message>
             <source>there is no volume to write to</source>
             <translation type="unfinished">es gibt kein Volumen zum Beschreiben</translation>
         </message>
@@ -3378,10 +3614,6 @@
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
             <translation type="unfinished">Richtungskosinus nicht von der Länge eins: übernommen, wie sie geschrieben sind</translation>
-        </message>
-        <message>
-            <source>{files} bytes behind the pixels, which are left out</source>
-            <translation type="unfinished">Byte hinter den Pixeln werden weggelassen ({files})</translation>
         </message>
         <message>
             <source>slices lie {between:.1f} mm apart and are {thickness:.3g} mm thick: what is shown between them is interpolated, nothing there was scanned</source>
@@ -3756,24 +3988,8 @@
             <translation type="unfinished">{name} hat {here:.2f} ml im Raster dieses CT, {there:.2f} ml in der Datei</translation>
         </message>
         <message>
-            <source>{name}: {count} {contours} {reason} left out</source>
-            <translation type="unfinished">{name}: weggelassen: {count} {contours} {reason}</translation>
-        </message>
-        <message>
             <source>its contours spread over {columns} × {rows} × {slices} voxels</source>
             <translation type="unfinished">die Konturen erstrecken sich über {columns} × {rows} × {slices} Voxel</translation>
-        </message>
-        <message>
-            <source>contour that is</source>
-            <translation type="unfinished">Kontur</translation>
-        </message>
-        <message>
-            <source>contours that are</source>
-            <translation type="unfinished">Konturen</translation>
-        </message>
-        <message>
-            <source>{repeated} {times} in the file twice counted once</source>
-            <translation type="unfinished">in der Datei doppelt vorhanden, nur einmal gezählt: {repeated} {times}</translation>
         </message>
         <message>
             <source>contours that cross one another were joined</source>
@@ -4448,14 +4664,6 @@
             <translation type="unfinished">die Platte {plate_name} hat keinen bekannten Ort im Koordinatensystem des Roboters, und es wurden keine Kugeln gewählt: Die Berührungen haben nichts, womit sie übereinstimmen könnten; geben Sie `place` an, oder wählen Sie die Kugeln im CT</translation>
         </message>
         <message>
-            <source>touch {lacking} more {fiducials}</source>
-            <translation type="unfinished">noch zu berühren: {lacking} {fiducials}</translation>
-        </message>
-        <message>
-            <source>pick {lacking} more {beads} in the CT, or none</source>
-            <translation type="unfinished">noch im CT zu wählen: {lacking} {beads}, oder keine</translation>
-        </message>
-        <message>
             <source>two fiducials have the same name: {names}</source>
             <translation type="unfinished">zwei Referenzmarken haben denselben Namen: {names}</translation>
         </message>
@@ -4548,10 +4756,6 @@
             <translation type="unfinished">Punkt {i} ({name}) ist {point} m: Nötig sind endliche Zahlen innerhalb von ±{largest:g} m (Millimeter statt Meter?)</translation>
         </message>
         <message>
-            <source>{points_given} {name} {points}: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
-            <translation type="unfinished">{points_given} {points} ({name}): Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</translation>
-        </message>
-        <message>
             <source>the {name} points lie within {extent_mm:.2f} mm of each other: they are one point; touch fiducials that are far apart</source>
             <translation type="unfinished">die Punkte ({name}) liegen innerhalb von {extent_mm:.2f} mm: Sie sind ein Punkt; berühren Sie Referenzmarken, die weit auseinanderliegen</translation>
         </message>
@@ -4564,8 +4768,40 @@
             <translation type="unfinished">Gewichte {array}: Nötig sind {count} positive Zahlen, die höchstens um den Faktor 1e6 auseinanderliegen</translation>
         </message>
         <message>
+            <source>screen and needle: not checked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>FRE says how well the points fit each other. It is not the accuracy at the target, and a small FRE does not promise one.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect at the target: it grows with the distance from the fiducials.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>A shift that all touches share, a wrong tip length for instance, does not show in the FRE.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>screen and needle agree within ± {mm} mm (95 %)</source>
             <translation type="unfinished">Bildschirm und Nadel stimmen auf ± {mm} mm überein (95 %)</translation>
+        </message>
+        <message>
+            <source>touched</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>picked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>touches</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>picks in the CT</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>TRE at the target: {expected_mm} mm RMS expected, at least 95 % within {within_95_mm} mm ({check_world_condition})</source>
@@ -4600,12 +4836,28 @@
             <translation type="unfinished">Längen zwischen den Punkten ({verb}) sind um {off:.1%} zu {direction} (± {part_scale_sd:.1%})</translation>
         </message>
         <message>
+            <source>long</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>short</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>{finding}: the CT's spacing is wrong, or this is another plate</source>
             <translation type="unfinished">{finding}: Der Pixel- oder Schichtabstand des CT ist falsch, oder dies ist eine andere Platte</translation>
         </message>
         <message>
             <source>{finding}: the cameras were calibrated with a board of another size than said. Measure its line of 100 mm and its squares, calibrate again; or this is another plate</source>
             <translation type="unfinished">{finding}: Die Kameras wurden mit einer Tafel kalibriert, deren Größe nicht stimmt. Messen Sie ihre 100-mm-Linie und ihre Quadrate nach und kalibrieren Sie neu; oder es ist eine andere Platte</translation>
+        </message>
+        <message>
+            <source>{mm:.1f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{mm:.2f}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>one of them has no score</source>
@@ -5176,6 +5428,10 @@
             <translation type="unfinished">Menü Roboter, Inbetriebnahme, Schritt Referenzfahrt</translation>
         </message>
         <message>
+            <source>Signs</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>simulated robot: its signs are known</source>
             <translation type="unfinished">simulierter Roboter: Seine Vorzeichen sind bekannt</translation>
         </message>
@@ -5212,12 +5468,64 @@
             <translation type="unfinished">der Roboter hat sich noch nicht gemeldet</translation>
         </message>
         <message>
+            <source>at most {force:g} N</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{cameras} of 2 cameras</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>plug both cameras in; menu Cameras</source>
             <translation type="unfinished">schließen Sie beide Kameras an; Menü Kameras</translation>
         </message>
         <message>
             <source>both bright and sharp, {rates} a second</source>
             <translation type="unfinished">beide hell und scharf, {rates} pro Sekunde</translation>
+        </message>
+        <message>
+            <source>check the camera's cable; menu Cameras</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>wait a moment</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the picture is dark</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>lens cap, light, exposure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{share:.0f} % of the picture is overexposed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>less light, or a shorter exposure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{rate:.0f} pictures a second instead of {wanted:.0f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>own USB port for each camera; lock the exposure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the marker's edge is {width:.1f} px wide</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>focus the lens on the needle and lock it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Marker</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>found in both pictures</source>
@@ -5228,6 +5536,10 @@
             <translation type="unfinished">noch keine Bilder</translation>
         </message>
         <message>
+            <source>pictures first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>only one camera</source>
             <translation type="unfinished">nur eine Kamera</translation>
         </message>
@@ -5236,12 +5548,20 @@
             <translation type="unfinished">schieben Sie die Nadel vor, bis beide Kameras das rote Band sehen; achten Sie auf andere rote Dinge</translation>
         </message>
         <message>
+            <source>Cameras agree</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>no point yet</source>
             <translation type="unfinished">noch kein Punkt</translation>
         </message>
         <message>
             <source>the marker must be seen by both cameras</source>
             <translation type="unfinished">beide Kameras müssen den Marker sehen</translation>
+        </message>
+        <message>
+            <source>residual {residual:.2f} px</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>a camera was moved, or robot and cameras differ: `acus calibrate world`</source>
@@ -5386,10 +5706,6 @@
         <message>
             <source>effect {effect} is computed by its model {model} from here on</source>
             <translation type="unfinished">der Effekt {effect} wird ab hier mit seinem Modell {model} berechnet</translation>
-        </message>
-        <message>
-            <source>{lie} in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
-            <translation type="unfinished">{lie} in {folder}, wo frühere Versionen Versuche ablegten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` listet alle auf</translation>
         </message>
         <message>
             <source>cannot bring attempts here: {place}: {error_strerror}</source>
@@ -7020,10 +7336,6 @@
             <translation type="unfinished">{listed}: Der Name sagt nicht, welche Kamera es ist; benennen Sie Bilder z. B. left01.png und right01.png oder camera0_1.png und camera1_1.png</translation>
         </message>
         <message>
-            <source>the names of the pictures speak of {cameras} camera(s); two are needed, e.g. left01.png and right01.png</source>
-            <translation type="unfinished">Kameras, von denen die Bildnamen sprechen: {cameras}; nötig sind zwei, z. B. left01.png und right01.png</translation>
-        </message>
-        <message>
             <source>{listed}: no picture of the other camera has that number; name those taken together alike (docs/calibration.md says how names are paired)</source>
             <translation type="unfinished">{listed}: Kein Bild der anderen Kamera hat diese Nummer; benennen Sie gemeinsam aufgenommene Bilder gleich (docs/calibration.md sagt, wie Namen gepaart werden)</translation>
         </message>
@@ -8357,13 +8669,12 @@ Nein: diese unter einem anderen Namen speichern.</translation>
             <source>five scripted skills are trying it …</source>
             <translation type="unfinished">fünf Skripte verschiedenen Könnens probieren sie aus …</translation>
         </message>
-        <message>
-            <source>1 attempt of each skill, without structures of risk</source>
-            <translation type="unfinished">1 Versuch je Skript, ohne Risikostrukturen</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts of each skill, without structures of risk</source>
-            <translation type="unfinished">{n} Versuche je Skript, ohne Risikostrukturen</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuche je Skript, ohne Risikostrukturen</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>more are on their way …</source>
@@ -9748,8 +10059,28 @@ Anteil</translation>
             <translation type="unfinished">Bildschirm und Nadel</translation>
         </message>
         <message>
+            <source>checked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>checked with remarks</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>check failed</source>
             <translation type="unfinished">Kontrolle nicht bestanden</translation>
+        </message>
+        <message>
+            <source>check not finished</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{verdict} today {time}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{verdict} {date:%Y-%m-%d %H:%M}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>not checked</source>
@@ -10011,13 +10342,12 @@ Anteil</translation>
             <source>and {n} more</source>
             <translation type="unfinished">und {n} weitere</translation>
         </message>
-        <message>
-            <source>The program ended in the middle of an attempt:</source>
-            <translation type="unfinished">Das Programm endete mitten in einem Versuch:</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>The program ended in the middle of {n} attempts:</source>
-            <translation type="unfinished">Das Programm endete mitten in {n} Versuchen:</translation>
+            <translation type="unfinished">
+                <numerusform>Das Programm endete mitten in {n} Versuchen:</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Recover keeps what was recorded: it stays in the list as unfinished, without a score. Later changes nothing; the list of sessions offers it too.</source>
@@ -10087,13 +10417,12 @@ Anteil</translation>
             <source>Earlier attempts lie in {there} ({n}): Sessions ▸ Bring earlier attempts here…</source>
             <translation type="unfinished">Frühere Versuche liegen in {there} ({n}): Sitzungen ▸ Frühere Versuche hierherholen…</translation>
         </message>
-        <message>
-            <source>1 attempt has come; it is in the list (F7).</source>
-            <translation type="unfinished">1 Versuch ist angekommen; er steht in der Liste (F7).</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts have come; they are in the list (F7).</source>
-            <translation type="unfinished">{n} Versuche sind angekommen; sie stehen in der Liste (F7).</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuche sind angekommen; sie stehen in der Liste (F7).</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>vessel</source>
@@ -10123,9 +10452,12 @@ Anteil</translation>
             <source>{met}, at {when}</source>
             <translation type="unfinished">{met}, bei {when}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>met {n} times here</source>
-            <translation type="unfinished">hier {n}-mal getroffen</translation>
+            <translation type="unfinished">
+                <numerusform>hier {n}-mal getroffen</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>longest way in it: {mm:.1f} mm</source>
@@ -10377,33 +10709,30 @@ Anteil</translation>
             <source>Say why: the student reads it in the list and in the debrief.</source>
             <translation type="unfinished">Sagen Sie, warum: Der Teilnehmer liest es in der Liste und in der Nachbesprechung.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts declared void</source>
-            <translation type="unfinished">{n} Versuche für ungültig erklärt</translation>
-        </message>
-        <message>
-            <source>1 attempt declared void</source>
-            <translation type="unfinished">1 Versuch für ungültig erklärt</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuche für ungültig erklärt</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Only the instructor does that: Sessions ▸ Sign in.</source>
             <translation type="unfinished">Das darf nur der Kursleiter: Sitzungen ▸ Anmelden.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts admitted</source>
-            <translation type="unfinished">{n} Versuche anerkannt</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuche anerkannt</numerusform>
+                <numerusform />
+            </translation>
         </message>
-        <message>
-            <source>1 attempt admitted</source>
-            <translation type="unfinished">1 Versuch anerkannt</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{done}: {n} attempts</source>
-            <translation type="unfinished">{done}: {n} Versuche</translation>
-        </message>
-        <message>
-            <source>{done}: 1 attempt</source>
-            <translation type="unfinished">{done}: 1 Versuch</translation>
+            <translation type="unfinished">
+                <numerusform>{done}: {n} Versuche</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Place in the attempt</source>
@@ -10943,13 +11272,12 @@ Buchstaben: Richtungen des Patienten
             <source>{label}: {value} cost {points}; {expert} or less costs none.</source>
             <translation type="unfinished">{label}: {value} kostete {points}; bis {expert} kostet es nichts.</translation>
         </message>
-        <message>
-            <source>1 point</source>
-            <translation type="unfinished">1 Punkt</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} points</source>
-            <translation type="unfinished">{n} Punkte</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Punkte</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -11059,9 +11387,12 @@ Buchstaben: Richtungen des Patienten
             <source>expert {expert:g}, good {good:g}, pass {passing:g} {unit}</source>
             <translation type="unfinished">Experte {expert:g}, gut {good:g}, bestanden {passing:g} {unit}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} days left</source>
-            <translation type="unfinished">Tage übrig: {n}</translation>
+            <translation type="unfinished">
+                <numerusform>Tage übrig: {n}</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>void: {why}</source>
@@ -11079,9 +11410,12 @@ Buchstaben: Richtungen des Patienten
             <source>cut off: Recover closes it as it is</source>
             <translation type="unfinished">unterbrochen: Wiederherstellen schließt ihn ab, wie er ist</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>deleted; can be brought back for {n} days</source>
-            <translation type="unfinished">gelöscht; lässt sich zurückholen (Tage übrig: {n})</translation>
+            <translation type="unfinished">
+                <numerusform>gelöscht; lässt sich zurückholen (Tage übrig: {n})</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>deleted; can be brought back until the trash is emptied</source>
@@ -11100,8 +11434,32 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Signatur</translation>
         </message>
         <message>
+            <source>this computer was too busy: the simulated cameras' pictures came too late; close other programs, then try again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>pictures and report are in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  void: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{total:.0f} of 100</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>void</source>
             <translation type="unfinished">ungültig</translation>
+        </message>
+        <message>
+            <source>not passed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>session: {record} (`acus session show`, `replay`: by this path)</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>held</source>
@@ -11411,25 +11769,19 @@ Buchstaben: Richtungen des Patienten
             <source>Any number of attempts.</source>
             <translation type="unfinished">Beliebig viele Versuche.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts are allowed.</source>
-            <translation type="unfinished">{n} Versuche sind erlaubt.</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuche sind erlaubt.</numerusform>
+                <numerusform />
+            </translation>
         </message>
-        <message>
-            <source>1 attempt is allowed.</source>
-            <translation type="unfinished">1 Versuch ist erlaubt.</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{left} of {n} attempts are left.</source>
-            <translation type="unfinished">Verbleibende Versuche: {left} von {n}.</translation>
-        </message>
-        <message>
-            <source>The one attempt is left.</source>
-            <translation type="unfinished">Der eine Versuch ist noch frei.</translation>
-        </message>
-        <message>
-            <source>The one attempt is used.</source>
-            <translation type="unfinished">Der eine Versuch ist verbraucht.</translation>
+            <translation type="unfinished">
+                <numerusform>Verbleibende Versuche: {left} von {n}.</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Course: {title}.</source>
@@ -13732,8 +14084,84 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">die beiden Passwörter sind nicht gleich: Geben Sie sie noch einmal ein</translation>
         </message>
         <message>
+            <source>no students yet: `acus people add` or `acus people roster`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} was added; PIN {pin}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>nothing was taken</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{added:#1 student|# students} added, {updated:#} updated</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} has a new PIN</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Recovery key</source>
             <translation type="unfinished">Wiederherstellungsschlüssel</translation>
+        </message>
+        <message>
+            <source>the password was changed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Password now</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the recovery key that was printed before is worth nothing any more</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>recovery key: {key}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Print it and lock it away: it sets a new password, and opens the station's key in a backup. It is kept nowhere.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id:24} {title}: {items:#1 exercise|# exercises}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no courses in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title} ({groups})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>, from {date}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>, until {date}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  {exercise} (version {version}): {purpose}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title} was not saved: correct these, or import the exercises first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title} saved: {path}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -13791,13 +14219,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>Nothing was imported. Correct these rows and import the roster again:</source>
             <translation type="unfinished">Nichts wurde importiert. Berichtigen Sie diese Zeilen und importieren Sie die Teilnehmerliste erneut:</translation>
         </message>
-        <message>
-            <source>1 student added, {m} updated</source>
-            <translation type="unfinished">1 Teilnehmer hinzugefügt, {m} aktualisiert</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} students added, {m} updated</source>
-            <translation type="unfinished">{n} Teilnehmer hinzugefügt, {m} aktualisiert</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Teilnehmer hinzugefügt, {m} aktualisiert</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Hand these out; they are kept nowhere.</source>
@@ -13843,13 +14270,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>{title} cannot be begun: {why}.</source>
             <translation type="unfinished">{title} kann nicht begonnen werden: {why}.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>Release {n} results of {title}?</source>
-            <translation type="unfinished">{n} Ergebnisse von {title} freigeben?</translation>
-        </message>
-        <message>
-            <source>Release 1 result of {title}?</source>
-            <translation type="unfinished">1 Ergebnis von {title} freigeben?</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Ergebnisse von {title} freigeben?</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Release results</source>
@@ -13863,13 +14289,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>Release</source>
             <translation type="unfinished">Freigeben</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results released</source>
-            <translation type="unfinished">{n} Ergebnisse freigegeben</translation>
-        </message>
-        <message>
-            <source>1 result released</source>
-            <translation type="unfinished">1 Ergebnis freigegeben</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Ergebnisse freigegeben</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Choose a student on the board first: click on the row.</source>
@@ -13935,13 +14360,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>{n} d ago</source>
             <translation type="unfinished">vor {n} T.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts count</source>
-            <translation type="unfinished">{n} Versuche zählen</translation>
-        </message>
-        <message>
-            <source>1 attempt counts</source>
-            <translation type="unfinished">1 Versuch zählt</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuche zählen</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>trend {trend:+.1f} points a time</source>
@@ -14099,9 +14523,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>, in order</source>
             <translation type="unfinished">, der Reihe nach</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results wait for their release</source>
-            <translation type="unfinished">Ergebnisse, die auf Freigabe warten: {n}</translation>
+            <translation type="unfinished">
+                <numerusform>Ergebnisse, die auf Freigabe warten: {n}</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>no exercises yet</source>
@@ -14256,10 +14683,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Bericht einer Gruppe</translation>
         </message>
         <message>
-            <source>{n} students, {m} exercises, {k} attempts that count: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">Teilnehmer: {n}, Übungen: {m}, Versuche, die zählen: {k} (bewertet, vergleichbar, von einem Menschen, nicht für ungültig erklärt).</translation>
-        </message>
-        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Noch kein Versuch eines angemeldeten Teilnehmers.</translation>
         </message>
@@ -14278,6 +14701,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>passed</source>
             <translation type="unfinished">bestanden</translation>
+        </message>
+        <message>
+            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -15536,14 +15963,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{count} other files…</source>
             <translation type="unfinished">Andere Dateien: {count}…</translation>
-        </message>
-        <message>
-            <source>{count} series, none of which can be used as it is</source>
-            <translation type="unfinished">Serien: {count}, keine davon ist verwendbar, wie sie ist</translation>
-        </message>
-        <message>
-            <source>{count} series, {usable} of which can be used</source>
-            <translation type="unfinished">Serien: {count}, davon verwendbar: {usable}</translation>
         </message>
         <message>
             <source>Import CT into the library</source>
@@ -17545,6 +17964,139 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>You hold the handle of a long tool that goes through a trocar. Move the handle to the left and the tip goes to the right, the further the deeper it is. Touch the numbered targets one after the other: bring the tip onto the target that is marked, and hold it there until the next one is. Go straight to each; press Enter after the last.</source>
             <translation type="unfinished">Sie halten den Griff eines langen Instruments, das durch einen Trokar geht. Bewegen Sie den Griff nach links, geht die Spitze nach rechts, und zwar umso weiter, je tiefer sie ist. Berühren Sie die nummerierten Ziele eines nach dem anderen: Bringen Sie die Spitze auf das markierte Ziel und halten Sie sie dort, bis das nächste markiert ist. Gehen Sie zu jedem auf geradem Weg; drücken Sie nach dem letzten Eingabe.</translation>
         </message>
+        <message numerus="yes">
+            <source>, {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>pick {n} more beads in the CT, or none</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>the names of the pictures speak of {n} cameras; two are needed, e.g. left01.png and right01.png</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>touch {n} more fiducials</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{name}: {n} contours {reason} left out</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts that count</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} contours that are in the file twice counted once</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} exercises</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files hold bytes behind the pixels, which are left out</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} gaps of missing slices left empty</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} regions {reason} left out: the file does not say what it is</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, none of which can be used as it is</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, {usable} of which can be used</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} students</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} {name} points: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
         <message>
             <source>Depth only: you begin aligned; only the depth counts, and nothing may be met that the exercise forbids.</source>
             <translation type="unfinished">Nur die Tiefe: Sie beginnen ausgerichtet; nur die Tiefe zählt, und nichts darf getroffen werden, was die Übung verbietet.</translation>
@@ -17720,6 +18272,141 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>--full and --quick ask for both: leave one of them out</source>
             <translation type="unfinished">--full und --quick verlangen beides: eines davon weglassen</translation>
+        </message>
+        <message>
+            <source>the output could not be written: {reason}; free some space there</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a question was not answered; nothing was done</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Invalid value: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no daily check was made yet</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Rest the tip in {name} and hold still; press Enter</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Instructor's password</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>compiling for the first time, up to a minute …</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{exercise} on the simulated device {device}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{exercise} on the real device {device}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{energy:.1f} mJ</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>energy</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>bound</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>cost</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>model</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>why</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>note</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  no effects</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>
+  touches {targets} targets, each for {dwell:g} s within {radius:g} mm; the hand moves the tool's handle</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>    {target}  at ({place}) mm LPS, {depth:.0f} mm deep: 1 mm of hand moves the tip {scale:.2f} mm the other way</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>
+  {metric} passes to {limit:g}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>
+  refused {kind}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  the patient calls for</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>      left out: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>      absent</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>      absent, {cost}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  add it: `acus exercise suggest {name}`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{time:.2f} ms for each picture of a camera, nothing of a tick</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{time:.0f} ns per tick, {share:.4f} % of 1 ms</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{items}, {item}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{items} and {last}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>0.5</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>%Y-%m-%d %H:%M</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>%Y-%m-%d</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>

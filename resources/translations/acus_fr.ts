@@ -792,16 +792,76 @@
             <translation type="unfinished">le robot a répondu mais n’envoie pas d’angles articulaires ; voir `acus device test`</translation>
         </message>
         <message>
+            <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✖ cannot be used: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--ct DIR needs --plan FILE: entry and target lie in that CT</source>
             <translation type="unfinished">--ct DIR demande --plan FILE : le point d’entrée et la cible sont dans ce CT</translation>
+        </message>
+        <message>
+            <source>✔ {exercise}: {id}, version {version}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source># nothing is absent without a reason in {id}, version {version}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is in the file</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is not in the file</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file}: {manifest.id}, version {manifest.exercise_version}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id}, version {version} {known:?was there already|taken in}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>there is no script {script!r}; there are {scripts}</source>
             <translation type="unfinished">il n’y a pas de script {script!r} ; il y a {scripts}</translation>
         </message>
         <message>
+            <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>skill        median    quartiles  passed   time</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>all skills in their order: {ordered_seeds:.0%} of the seeds</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>neighbouring skills ordered right, any seed with any: {ordered_share:.0%}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
             <translation type="unfinished">--target {target} : il faut trois nombres X,Y,Z en mm</translation>
+        </message>
+        <message>
+            <source>nobody and nothing to show: add students first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} has no attempt at {exercise} that counts</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{form}: the forms are {forms}</source>
@@ -812,16 +872,200 @@
             <translation type="unfinished">--student vaut pour pdf ; les tableaux contiennent tout le monde</translation>
         </message>
         <message>
+            <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no trend yet</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{change:+.1f} a time</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source> ({others} not counted)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--ct {ct} does not exist; name a folder or file with a CT</source>
             <translation type="unfinished">--ct {ct} n’existe pas ; indiquez un dossier ou un fichier avec un CT</translation>
+        </message>
+        <message>
+            <source>attempts are kept in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no sessions in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>score: {verdict}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>signature: {verdict}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>admitted by the instructor: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file} is not sealed by this station: lists read the record</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the index was altered: {problem}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>not comparable: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>comparable</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} deleted: `acus session restore {id}` brings it back</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} is back</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} was closed as it stands: listed as unfinished</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id} has its end: there was nothing to recover, and nothing was changed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` keeps it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no attempt was cut off in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>nothing to do</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{left:#1 stays|# stay} there, not signed by this station: `acus session list --folder {from}` lists them</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{gathered:#1 attempt|# attempts} brought from {from} to {folder}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>--out {out}: only .csv can be written</source>
             <translation type="unfinished">--out {out} : seul .csv peut être écrit</translation>
         </message>
         <message>
+            <source>{rows:#1 row|# rows} written to {files}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>--trajectory takes exactly one session id</source>
             <translation type="unfinished">--trajectory demande exactement un identifiant de séance</translation>
+        </message>
+        <message>
+            <source>student</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>exercise</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>state</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>duration</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>score</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>signature</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>— altered</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{total:.0f} % passed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{total:.0f} %</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no student's attempt: {hands}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>± {radius:.1f} mm (95 %), median</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>started</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>reason</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{seconds:.1f} s</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>scans</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>file</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>hand</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>whose</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>calibration</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>tip known to</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>published</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>problem</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>study {name} takes no --{option}; leave it out</source>
@@ -2600,8 +2844,8 @@
             <translation type="unfinished">pydicom est chargé</translation>
         </message>
         <message>
-            <source>{absent} {verb} missing, without which its pixels cannot be told</source>
-            <translation type="unfinished">{absent} {verb} introuvable(s) ; sans cela, ses pixels ne peuvent pas être interprétés</translation>
+            <source>missing, without which its pixels cannot be told: {names}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>
@@ -3248,10 +3492,6 @@
             <translation type="unfinished">{listing_path} est vide ; nommez un dossier contenant des fichiers DICOM</translation>
         </message>
         <message>
-            <source>no DICOM series in {listing_path}: {ignored} {files} ignored ({first_path_name}: {first_reason})</source>
-            <translation type="unfinished">aucune série DICOM dans {listing_path} : ignorés : {ignored} {files} ({first_path_name} : {first_reason})</translation>
-        </message>
-        <message>
             <source>no series {series_uid} in {listing_path}; it holds {valid}</source>
             <translation type="unfinished">pas de série {series_uid} dans {listing_path} ; présentes : {valid}</translation>
         </message>
@@ -3344,10 +3584,6 @@
             <translation type="unfinished">rééchantillonné à partir de coupes espacées de {narrowest_mm:.3g} à {widest_mm:.3g} mm, à {step:.3g} mm</translation>
         </message>
         <message>
-            <source>{empty} {gaps} of missing slices left empty</source>
-            <translation type="unfinished">coupes manquantes laissées vides : {empty} {gaps}</translation>
-        </message>
-        <message>
             <source>there is no volume to write to</source>
             <translation type="unfinished">il n’y a pas de volume où écrire</translation>
         </message>
@@ -3378,10 +3614,6 @@
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
             <translation type="unfinished">cosinus directeurs de longueur différente de un : pris tels qu’ils sont écrits</translation>
-        </message>
-        <message>
-            <source>{files} bytes behind the pixels, which are left out</source>
-            <translation type="unfinished">octets après les pixels, laissés de côté ({files})</translation>
         </message>
         <message>
             <source>slices lie {between:.1f} mm apart and are {thickness:.3g} mm thick: what is shown between them is interpolated, nothing there was scanned</source>
@@ -3756,24 +3988,8 @@
             <translation type="unfinished">{name} fait {here:.2f} ml sur la grille de ce CT, {there:.2f} ml dans le fichier</translation>
         </message>
         <message>
-            <source>{name}: {count} {contours} {reason} left out</source>
-            <translation type="unfinished">{name} : laissé de côté : {count} {contours} {reason}</translation>
-        </message>
-        <message>
             <source>its contours spread over {columns} × {rows} × {slices} voxels</source>
             <translation type="unfinished">ses contours s’étendent sur {columns} × {rows} × {slices} voxels</translation>
-        </message>
-        <message>
-            <source>contour that is</source>
-            <translation type="unfinished">contour</translation>
-        </message>
-        <message>
-            <source>contours that are</source>
-            <translation type="unfinished">contours</translation>
-        </message>
-        <message>
-            <source>{repeated} {times} in the file twice counted once</source>
-            <translation type="unfinished">doublons du fichier comptés une seule fois : {repeated} {times}</translation>
         </message>
         <message>
             <source>contours that cross one another were joined</source>
@@ -4448,14 +4664,6 @@
             <translation type="unfinished">la plaque {plate_name} n’a pas de place connue dans le repère spatial du robot, et aucune bille n’a été choisie : les touchers n’ont rien à quoi se comparer ; donnez `place`, ou choisissez les billes dans le CT</translation>
         </message>
         <message>
-            <source>touch {lacking} more {fiducials}</source>
-            <translation type="unfinished">encore à toucher : {lacking} {fiducials}</translation>
-        </message>
-        <message>
-            <source>pick {lacking} more {beads} in the CT, or none</source>
-            <translation type="unfinished">encore à choisir dans le CT : {lacking} {beads}, ou aucune</translation>
-        </message>
-        <message>
             <source>two fiducials have the same name: {names}</source>
             <translation type="unfinished">deux repères ont le même nom : {names}</translation>
         </message>
@@ -4548,10 +4756,6 @@
             <translation type="unfinished">point {i} ({name}) : {point} m : il faut des nombres finis dans ±{largest:g} m (des millimètres au lieu de mètres ?)</translation>
         </message>
         <message>
-            <source>{points_given} {name} {points}: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
-            <translation type="unfinished">{points_given} {points} ({name}) : un recalage en demande au moins {fewest}, et {fewest_to_check} pour en trouver un faux</translation>
-        </message>
-        <message>
             <source>the {name} points lie within {extent_mm:.2f} mm of each other: they are one point; touch fiducials that are far apart</source>
             <translation type="unfinished">les points ({name}) sont à moins de {extent_mm:.2f} mm les uns des autres : c’est un seul point ; touchez des repères éloignés les uns des autres</translation>
         </message>
@@ -4564,8 +4768,40 @@
             <translation type="unfinished">poids {array} : il faut {count} nombres positifs dans un rapport d’au plus 1e6</translation>
         </message>
         <message>
+            <source>screen and needle: not checked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>FRE says how well the points fit each other. It is not the accuracy at the target, and a small FRE does not promise one.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect at the target: it grows with the distance from the fiducials.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>A shift that all touches share, a wrong tip length for instance, does not show in the FRE.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>screen and needle agree within ± {mm} mm (95 %)</source>
             <translation type="unfinished">l’écran et l’aiguille concordent à ± {mm} mm près (95 %)</translation>
+        </message>
+        <message>
+            <source>touched</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>picked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>touches</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>picks in the CT</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>TRE at the target: {expected_mm} mm RMS expected, at least 95 % within {within_95_mm} mm ({check_world_condition})</source>
@@ -4600,12 +4836,28 @@
             <translation type="unfinished">les longueurs entre les points ({verb}) sont fausses de {off:.1%} : trop {direction} (± {part_scale_sd:.1%})</translation>
         </message>
         <message>
+            <source>long</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>short</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>{finding}: the CT's spacing is wrong, or this is another plate</source>
             <translation type="unfinished">{finding} : l’espacement du CT est faux, ou c’est une autre plaque</translation>
         </message>
         <message>
             <source>{finding}: the cameras were calibrated with a board of another size than said. Measure its line of 100 mm and its squares, calibrate again; or this is another plate</source>
             <translation type="unfinished">{finding} : les caméras ont été étalonnées avec une mire d’une autre taille que celle indiquée. Mesurez son trait de 100 mm et ses carrés, puis refaites l’étalonnage ; ou bien c’est une autre plaque</translation>
+        </message>
+        <message>
+            <source>{mm:.1f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{mm:.2f}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>one of them has no score</source>
@@ -5176,6 +5428,10 @@
             <translation type="unfinished">menu Robot, Mise en service, étape Prise d’origine</translation>
         </message>
         <message>
+            <source>Signs</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>simulated robot: its signs are known</source>
             <translation type="unfinished">robot simulé : ses signes sont connus</translation>
         </message>
@@ -5212,12 +5468,64 @@
             <translation type="unfinished">le robot n’a encore rien signalé</translation>
         </message>
         <message>
+            <source>at most {force:g} N</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{cameras} of 2 cameras</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>plug both cameras in; menu Cameras</source>
             <translation type="unfinished">branchez les deux caméras ; menu Caméras</translation>
         </message>
         <message>
             <source>both bright and sharp, {rates} a second</source>
             <translation type="unfinished">toutes deux claires et nettes, {rates} par seconde</translation>
+        </message>
+        <message>
+            <source>check the camera's cable; menu Cameras</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>wait a moment</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the picture is dark</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>lens cap, light, exposure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{share:.0f} % of the picture is overexposed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>less light, or a shorter exposure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{rate:.0f} pictures a second instead of {wanted:.0f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>own USB port for each camera; lock the exposure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the marker's edge is {width:.1f} px wide</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>focus the lens on the needle and lock it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Marker</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>found in both pictures</source>
@@ -5228,6 +5536,10 @@
             <translation type="unfinished">pas encore d’images</translation>
         </message>
         <message>
+            <source>pictures first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>only one camera</source>
             <translation type="unfinished">une seule caméra</translation>
         </message>
@@ -5236,12 +5548,20 @@
             <translation type="unfinished">avancez l’aiguille jusqu’à ce que les deux caméras voient la bande rouge ; cherchez d’autres objets rouges</translation>
         </message>
         <message>
+            <source>Cameras agree</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>no point yet</source>
             <translation type="unfinished">pas encore de point</translation>
         </message>
         <message>
             <source>the marker must be seen by both cameras</source>
             <translation type="unfinished">le marqueur doit être vu par les deux caméras</translation>
+        </message>
+        <message>
+            <source>residual {residual:.2f} px</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>a camera was moved, or robot and cameras differ: `acus calibrate world`</source>
@@ -5386,10 +5706,6 @@
         <message>
             <source>effect {effect} is computed by its model {model} from here on</source>
             <translation type="unfinished">l’effet {effect} est calculé par son modèle {model} à partir d’ici</translation>
-        </message>
-        <message>
-            <source>{lie} in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
-            <translation type="unfinished">{lie} dans {folder}, où les versions antérieures rangeaient les essais : `acus session gather` amène les vôtres ici, `acus session list --folder {folder}` les liste tous</translation>
         </message>
         <message>
             <source>cannot bring attempts here: {place}: {error_strerror}</source>
@@ -7020,10 +7336,6 @@
             <translation type="unfinished">{listed} : le nom ne dit pas quelle caméra ; nommez les images p. ex. left01.png et right01.png, ou camera0_1.png et camera1_1.png</translation>
         </message>
         <message>
-            <source>the names of the pictures speak of {cameras} camera(s); two are needed, e.g. left01.png and right01.png</source>
-            <translation type="unfinished">caméras désignées par les noms des images : {cameras} ; il en faut deux, p. ex. left01.png et right01.png</translation>
-        </message>
-        <message>
             <source>{listed}: no picture of the other camera has that number; name those taken together alike (docs/calibration.md says how names are paired)</source>
             <translation type="unfinished">{listed} : aucune image de l’autre caméra n’a ce numéro ; nommez de la même façon celles prises ensemble (docs/calibration.md dit comment les noms sont appariés)</translation>
         </message>
@@ -8357,13 +8669,12 @@ Non : le conserver sous un autre nom.</translation>
             <source>five scripted skills are trying it …</source>
             <translation type="unfinished">cinq scripts d’habileté différente l’essaient …</translation>
         </message>
-        <message>
-            <source>1 attempt of each skill, without structures of risk</source>
-            <translation type="unfinished">1 essai par script, sans structures à risque</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts of each skill, without structures of risk</source>
-            <translation type="unfinished">{n} essais par script, sans structures à risque</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essais par script, sans structures à risque</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>more are on their way …</source>
@@ -9748,8 +10059,28 @@ part</translation>
             <translation type="unfinished">Écran et aiguille</translation>
         </message>
         <message>
+            <source>checked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>checked with remarks</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>check failed</source>
             <translation type="unfinished">vérification échouée</translation>
+        </message>
+        <message>
+            <source>check not finished</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{verdict} today {time}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{verdict} {date:%Y-%m-%d %H:%M}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>not checked</source>
@@ -10011,13 +10342,12 @@ part</translation>
             <source>and {n} more</source>
             <translation type="unfinished">et {n} de plus</translation>
         </message>
-        <message>
-            <source>The program ended in the middle of an attempt:</source>
-            <translation type="unfinished">Le programme s’est arrêté au milieu d’un essai :</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>The program ended in the middle of {n} attempts:</source>
-            <translation type="unfinished">Le programme s’est arrêté au milieu de {n} essais :</translation>
+            <translation type="unfinished">
+                <numerusform>Le programme s’est arrêté au milieu de {n} essais :</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Recover keeps what was recorded: it stays in the list as unfinished, without a score. Later changes nothing; the list of sessions offers it too.</source>
@@ -10087,13 +10417,12 @@ part</translation>
             <source>Earlier attempts lie in {there} ({n}): Sessions ▸ Bring earlier attempts here…</source>
             <translation type="unfinished">Des essais antérieurs sont dans {there} ({n}) : Séances ▸ Amener ici les essais antérieurs…</translation>
         </message>
-        <message>
-            <source>1 attempt has come; it is in the list (F7).</source>
-            <translation type="unfinished">1 essai est arrivé ; il est dans la liste (F7).</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts have come; they are in the list (F7).</source>
-            <translation type="unfinished">{n} essais sont arrivés ; ils sont dans la liste (F7).</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essais sont arrivés ; ils sont dans la liste (F7).</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>vessel</source>
@@ -10123,9 +10452,12 @@ part</translation>
             <source>{met}, at {when}</source>
             <translation type="unfinished">{met}, à {when}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>met {n} times here</source>
-            <translation type="unfinished">rencontré {n} fois ici</translation>
+            <translation type="unfinished">
+                <numerusform>rencontré {n} fois ici</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>longest way in it: {mm:.1f} mm</source>
@@ -10377,33 +10709,30 @@ part</translation>
             <source>Say why: the student reads it in the list and in the debrief.</source>
             <translation type="unfinished">Dites pourquoi : l’étudiant le lit dans la liste et au débriefing.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts declared void</source>
-            <translation type="unfinished">{n} essais déclarés nuls</translation>
-        </message>
-        <message>
-            <source>1 attempt declared void</source>
-            <translation type="unfinished">1 essai déclaré nul</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essais déclarés nuls</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Only the instructor does that: Sessions ▸ Sign in.</source>
             <translation type="unfinished">Seul le formateur peut le faire : Séances ▸ Se connecter.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts admitted</source>
-            <translation type="unfinished">{n} essais admis</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essais admis</numerusform>
+                <numerusform />
+            </translation>
         </message>
-        <message>
-            <source>1 attempt admitted</source>
-            <translation type="unfinished">1 essai admis</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{done}: {n} attempts</source>
-            <translation type="unfinished">{done} : {n} essais</translation>
-        </message>
-        <message>
-            <source>{done}: 1 attempt</source>
-            <translation type="unfinished">{done} : 1 essai</translation>
+            <translation type="unfinished">
+                <numerusform>{done} : {n} essais</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Place in the attempt</source>
@@ -10943,13 +11272,12 @@ Lettres : directions du patient
             <source>{label}: {value} cost {points}; {expert} or less costs none.</source>
             <translation type="unfinished">{label} : {value} a coûté {points} ; jusqu’à {expert}, rien.</translation>
         </message>
-        <message>
-            <source>1 point</source>
-            <translation type="unfinished">1 point</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} points</source>
-            <translation type="unfinished">{n} points</translation>
+            <translation type="unfinished">
+                <numerusform>{n} points</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -11059,9 +11387,12 @@ Lettres : directions du patient
             <source>expert {expert:g}, good {good:g}, pass {passing:g} {unit}</source>
             <translation type="unfinished">expert {expert:g}, bon {good:g}, réussi {passing:g} {unit}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} days left</source>
-            <translation type="unfinished">jours restants : {n}</translation>
+            <translation type="unfinished">
+                <numerusform>jours restants : {n}</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>void: {why}</source>
@@ -11079,9 +11410,12 @@ Lettres : directions du patient
             <source>cut off: Recover closes it as it is</source>
             <translation type="unfinished">interrompu : Récupérer le clôt tel quel</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>deleted; can be brought back for {n} days</source>
-            <translation type="unfinished">supprimé ; peut être rétabli (jours restants : {n})</translation>
+            <translation type="unfinished">
+                <numerusform>supprimé ; peut être rétabli (jours restants : {n})</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>deleted; can be brought back until the trash is emptied</source>
@@ -11100,8 +11434,32 @@ Lettres : directions du patient
             <translation type="unfinished">Signature</translation>
         </message>
         <message>
+            <source>this computer was too busy: the simulated cameras' pictures came too late; close other programs, then try again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>pictures and report are in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  void: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{total:.0f} of 100</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>void</source>
             <translation type="unfinished">nul</translation>
+        </message>
+        <message>
+            <source>not passed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>session: {record} (`acus session show`, `replay`: by this path)</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>held</source>
@@ -11411,25 +11769,19 @@ Lettres : directions du patient
             <source>Any number of attempts.</source>
             <translation type="unfinished">Autant d’essais que l’on veut.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts are allowed.</source>
-            <translation type="unfinished">{n} essais sont permis.</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essais sont permis.</numerusform>
+                <numerusform />
+            </translation>
         </message>
-        <message>
-            <source>1 attempt is allowed.</source>
-            <translation type="unfinished">1 essai est permis.</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{left} of {n} attempts are left.</source>
-            <translation type="unfinished">Essais restants : {left} sur {n}.</translation>
-        </message>
-        <message>
-            <source>The one attempt is left.</source>
-            <translation type="unfinished">Il reste l’unique essai.</translation>
-        </message>
-        <message>
-            <source>The one attempt is used.</source>
-            <translation type="unfinished">L’unique essai est utilisé.</translation>
+            <translation type="unfinished">
+                <numerusform>Essais restants : {left} sur {n}.</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Course: {title}.</source>
@@ -13732,8 +14084,84 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">les deux mots de passe diffèrent : saisissez-les à nouveau</translation>
         </message>
         <message>
+            <source>no students yet: `acus people add` or `acus people roster`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} was added; PIN {pin}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>nothing was taken</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{added:#1 student|# students} added, {updated:#} updated</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} has a new PIN</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Recovery key</source>
             <translation type="unfinished">Clé de récupération</translation>
+        </message>
+        <message>
+            <source>the password was changed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Password now</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the recovery key that was printed before is worth nothing any more</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>recovery key: {key}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Print it and lock it away: it sets a new password, and opens the station's key in a backup. It is kept nowhere.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{id:24} {title}: {items:#1 exercise|# exercises}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no courses in {folder}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title} ({groups})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>, from {date}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>, until {date}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  {exercise} (version {version}): {purpose}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title} was not saved: correct these, or import the exercises first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title} saved: {path}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -13791,13 +14219,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>Nothing was imported. Correct these rows and import the roster again:</source>
             <translation type="unfinished">Rien n’a été importé. Corrigez ces lignes et importez à nouveau la liste :</translation>
         </message>
-        <message>
-            <source>1 student added, {m} updated</source>
-            <translation type="unfinished">Étudiants ajoutés : 1, mis à jour : {m}</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} students added, {m} updated</source>
-            <translation type="unfinished">Étudiants ajoutés : {n}, mis à jour : {m}</translation>
+            <translation type="unfinished">
+                <numerusform>Étudiants ajoutés : {n}, mis à jour : {m}</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Hand these out; they are kept nowhere.</source>
@@ -13843,13 +14270,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>{title} cannot be begun: {why}.</source>
             <translation type="unfinished">Impossible de commencer {title} : {why}.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>Release {n} results of {title}?</source>
-            <translation type="unfinished">Publier {n} résultats de {title} ?</translation>
-        </message>
-        <message>
-            <source>Release 1 result of {title}?</source>
-            <translation type="unfinished">Publier 1 résultat de {title} ?</translation>
+            <translation type="unfinished">
+                <numerusform>Publier {n} résultats de {title} ?</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Release results</source>
@@ -13863,13 +14289,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>Release</source>
             <translation type="unfinished">Publier</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results released</source>
-            <translation type="unfinished">{n} résultats publiés</translation>
-        </message>
-        <message>
-            <source>1 result released</source>
-            <translation type="unfinished">1 résultat publié</translation>
+            <translation type="unfinished">
+                <numerusform>{n} résultats publiés</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>Choose a student on the board first: click on the row.</source>
@@ -13935,13 +14360,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>{n} d ago</source>
             <translation type="unfinished">il y a {n} j</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts count</source>
-            <translation type="unfinished">{n} essais comptent</translation>
-        </message>
-        <message>
-            <source>1 attempt counts</source>
-            <translation type="unfinished">1 essai compte</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essais comptent</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>trend {trend:+.1f} points a time</source>
@@ -14099,9 +14523,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>, in order</source>
             <translation type="unfinished">, dans l’ordre</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results wait for their release</source>
-            <translation type="unfinished">Résultats en attente de publication : {n}</translation>
+            <translation type="unfinished">
+                <numerusform>Résultats en attente de publication : {n}</numerusform>
+                <numerusform />
+            </translation>
         </message>
         <message>
             <source>no exercises yet</source>
@@ -14256,10 +14683,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rapport d’un groupe</translation>
         </message>
         <message>
-            <source>{n} students, {m} exercises, {k} attempts that count: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">Étudiants : {n}, exercices : {m}, essais qui comptent : {k} (notés, comparables, faits par une personne, non déclarés nuls).</translation>
-        </message>
-        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Pas encore d’essai d’un étudiant connecté.</translation>
         </message>
@@ -14278,6 +14701,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>passed</source>
             <translation type="unfinished">réussi</translation>
+        </message>
+        <message>
+            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -15536,14 +15963,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{count} other files…</source>
             <translation type="unfinished">Autres fichiers : {count}…</translation>
-        </message>
-        <message>
-            <source>{count} series, none of which can be used as it is</source>
-            <translation type="unfinished">Séries : {count}, aucune utilisable telle quelle</translation>
-        </message>
-        <message>
-            <source>{count} series, {usable} of which can be used</source>
-            <translation type="unfinished">Séries : {count}, dont utilisables : {usable}</translation>
         </message>
         <message>
             <source>Import CT into the library</source>
@@ -17545,6 +17964,139 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>You hold the handle of a long tool that goes through a trocar. Move the handle to the left and the tip goes to the right, the further the deeper it is. Touch the numbered targets one after the other: bring the tip onto the target that is marked, and hold it there until the next one is. Go straight to each; press Enter after the last.</source>
             <translation type="unfinished">Vous tenez la poignée d’un long instrument qui passe par un trocart. Déplacez la poignée vers la gauche et la pointe va vers la droite, d’autant plus loin qu’elle est profonde. Touchez les cibles numérotées l’une après l’autre : amenez la pointe sur la cible marquée et maintenez-la là jusqu’à ce que la suivante le soit. Allez tout droit à chacune ; appuyez sur Entrée après la dernière.</translation>
         </message>
+        <message numerus="yes">
+            <source>, {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>pick {n} more beads in the CT, or none</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>the names of the pictures speak of {n} cameras; two are needed, e.g. left01.png and right01.png</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>touch {n} more fiducials</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{name}: {n} contours {reason} left out</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts that count</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} contours that are in the file twice counted once</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} exercises</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files hold bytes behind the pixels, which are left out</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} gaps of missing slices left empty</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} regions {reason} left out: the file does not say what it is</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, none of which can be used as it is</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, {usable} of which can be used</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} students</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} {name} points: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
         <message>
             <source>Depth only: you begin aligned; only the depth counts, and nothing may be met that the exercise forbids.</source>
             <translation type="unfinished">Profondeur seule : vous commencez aligné ; seule la profondeur compte, et rien de ce que l’exercice interdit ne doit être touché.</translation>
@@ -17720,6 +18272,141 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>--full and --quick ask for both: leave one of them out</source>
             <translation type="unfinished">--full et --quick demandent les deux : retirez l’un d’eux</translation>
+        </message>
+        <message>
+            <source>the output could not be written: {reason}; free some space there</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a question was not answered; nothing was done</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Invalid value: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no daily check was made yet</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Rest the tip in {name} and hold still; press Enter</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Instructor's password</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>compiling for the first time, up to a minute …</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{exercise} on the simulated device {device}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{exercise} on the real device {device}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{energy:.1f} mJ</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>energy</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>bound</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>cost</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>model</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>why</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>note</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  no effects</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>
+  touches {targets} targets, each for {dwell:g} s within {radius:g} mm; the hand moves the tool's handle</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>    {target}  at ({place}) mm LPS, {depth:.0f} mm deep: 1 mm of hand moves the tip {scale:.2f} mm the other way</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>
+  {metric} passes to {limit:g}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>
+  refused {kind}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  the patient calls for</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>      left out: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>      absent</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>      absent, {cost}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  add it: `acus exercise suggest {name}`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{time:.2f} ms for each picture of a camera, nothing of a tick</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{time:.0f} ns per tick, {share:.4f} % of 1 ms</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{items}, {item}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{items} and {last}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>0.5</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>%Y-%m-%d %H:%M</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>%Y-%m-%d</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>

@@ -48,7 +48,7 @@ from app.session.roster import looks_like_a_key
 from app.session.store import computed, find, verdict_of
 from app.session.summary import Summary
 from app.views.debrief.gathering import Gathering
-from app.views.debrief.page import DebriefPage, date_text
+from app.views.debrief.page import DebriefPage
 from app.views.debrief.replay import Ghost
 from app.views.debrief.report import report_bytes
 from app.views.debrief.score_words import hand_word
@@ -62,7 +62,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box, size_dialog
 from app.views.kit.roles import EVERYBODY, STAFF, Role
-from app.views.kit.text import declared, tr, translated
+from app.views.kit.text import date_text, declared, tr, tr_n, translated
 from app.views.shell.feature import Context, Feature
 from app.views.structures.layer import draw_in
 
@@ -713,10 +713,10 @@ class Interruptions(QObject):
         ]
         if len(result) > _NAMED:
             lines.append(tr("and {n} more", n=len(result) - _NAMED))
-        ended_in = (
-            tr("The program ended in the middle of an attempt:")
-            if len(result) == 1
-            else tr("The program ended in the middle of {n} attempts:", n=len(result))
+        ended_in = tr_n(
+            "The program ended in the middle of {n} attempt:",
+            "The program ended in the middle of {n} attempts:",
+            len(result),
         )
         keeps = tr(
             "Recover keeps what was recorded: it stays in the list as unfinished, without a score. "

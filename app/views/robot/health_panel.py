@@ -26,7 +26,7 @@ from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, moment, tr
 from app.views.kit.verdict import StatusItem
 from app.views.robot.health import HealthGroup, Rates, health
 
@@ -184,7 +184,7 @@ class HealthPanel(QWidget):
         """Everything on the page as plain text."""
         lines = [
             tr("Acus {version}: health of the robot", version=__version__),
-            when.isoformat(timespec="seconds"),
+            moment(when),
         ]
         for group in self.groups:
             lines += ["", group.title]
