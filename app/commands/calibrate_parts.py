@@ -247,8 +247,10 @@ def stereo_lines(
     lines += [f"  {'agrees' if check.passed else 'CONTRADICTS'}: {check.text}" for check in checks]
     if not checks:
         lines.append(
-            "  not checked: the board's size; give --baseline-mm, or a second board "
-            "(--check-images, --check-board)"
+            sentence(
+                "  not checked: the board's size; give --baseline-mm, or a second board "
+                "(--check-images, --check-board)"
+            )
         )
     lines += _residual_lines(outcome.result.residuals)
     lines += _refused(outcome.read) + [f"  {note}" for note in calibration.notes]
@@ -264,7 +266,7 @@ def _plain_line(rms_px: float | None) -> list[str]:
 def _validation_lines(result: "StereoSet") -> list[str]:
     value = result.calibration.validation
     if value is None:
-        return ["  not validated: no pairs were held back (--hold-back N)"]
+        return [sentence("  not validated: no pairs were held back (--hold-back N)")]
     return [
         f"  {value.views} pairs held back: corners within {value.rms_mm:.3f} mm RMS (at most "
         f"{value.max_mm:.3f} mm) of the true board, lengths x {value.scale:.5f} ± "
@@ -290,7 +292,7 @@ def _parameter_lines(camera: "CameraCalibration") -> list[str]:
 
 
 def _residual_lines(residuals: "Sequence[ViewResidual]") -> list[str]:
-    words = {"used": "", "outlier": "left out", "held_back": "held back"}
+    words = {"used": "", "outlier": sentence("left out"), "held_back": sentence("held back")}
     return [f"  {r.name:<32} {r.rms_px:7.3f} px  {words[r.role]}".rstrip() for r in residuals]
 
 

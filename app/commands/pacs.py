@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.ct import MASK_HELP, Mend, RemedyGroup
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -148,7 +149,9 @@ def find(
     studies = client.find_studies(query)
     found = [series for one in studies for series in client.find_series(one, modality)]
     lines = [_line(one, names) for one in found]
-    return Answer({"series": [_series(one) for one in found]}, lines or ["nothing matches"])
+    return Answer(
+        {"series": [_series(one) for one in found]}, lines or [sentence("nothing matches")]
+    )
 
 
 @app.command()

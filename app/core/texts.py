@@ -27,16 +27,19 @@ class Texts(Formatter):
 
     Args:
         lookup: of one text.
+
+    Attributes:
+        is_english: whether nothing is written otherwise than in the source.
     """
 
     def __init__(self, lookup: Lookup) -> None:
         self._lookup = lookup
         self._point = "."
-        self._as_english = True
+        self.is_english = True
 
     def begin(self, english: bool) -> Texts:
         """Take the language's own decimal point and dates, or those of English."""
-        self._as_english = english
+        self.is_english = english
         self._point = "." if english else self._lookup(_HALF, -1).strip("05") or "."
         return self
 
@@ -88,7 +91,7 @@ class Texts(Formatter):
             return self._filled(english, values)  # the translation names other values
 
     def _filled(self, pattern: str, values: Mapping[str, object]) -> str:
-        if self._as_english:
+        if self.is_english:
             return pattern.format(**values)
         return self.vformat(pattern, (), values)
 

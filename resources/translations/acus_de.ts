@@ -692,6 +692,38 @@
             <translation type="unfinished">die Eingabe endete vor der Routine; nichts wurde behalten</translation>
         </message>
         <message>
+            <source>places        agree within {disagreement_mm:.2f} mm</source>
+            <translation type="unfinished">Orte          stimmen auf {disagreement_mm:.2f} mm überein</translation>
+        </message>
+        <message>
+            <source>{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</source>
+            <translation type="unfinished">{key:13} steht bei {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</translation>
+        </message>
+        <message>
+            <source>residual      {rms_px:.3f} px in {pictures:#} pictures</source>
+            <translation type="unfinished">Restfehler    {rms_px:.3f} px in {pictures:#} Bildern</translation>
+        </message>
+        <message>
+            <source>{scale:?scale         {scale:.5f} ± {scale_sd:.5f} of the board's size}</source>
+            <translation type="unfinished">{scale:?Maßstab       {scale:.5f} ± {scale_sd:.5f} der Größe der Tafel}</translation>
+        </message>
+        <message>
+            <source>{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm (standard deviation per axis)}</source>
+            <translation type="unfinished">{fulcrum_sd_mm:?Drehpunkt     sicher auf ± {fulcrum_sd_mm:.2f} mm (Standardabweichung je Achse)}</translation>
+        </message>
+        <message>
+            <source>look at       {}</source>
+            <translation type="unfinished">ansehen       {}</translation>
+        </message>
+        <message>
+            <source>not used      {name}: {text}</source>
+            <translation type="unfinished">nicht genutzt {name}: {text}</translation>
+        </message>
+        <message>
+            <source>{kept:?in use from now on: {id}|not kept: add --keep to use it}</source>
+            <translation type="unfinished">{kept:?ab jetzt in Gebrauch: {id}|nicht behalten: mit --keep wird sie verwendet}</translation>
+        </message>
+        <message>
             <source>--at {place!r} is not {pose}: millimetres and degrees, e.g. -60,180,90,180,0,0</source>
             <translation type="unfinished">--at {place!r} ist nicht {pose}: Millimeter und Grad, z. B. -60,180,90,180,0,0</translation>
         </message>
@@ -702,6 +734,10 @@
         <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out nimmt das Objektiv einer Kamera; diese Bilder sind von {groups}: Geben Sie für jede einen Ordner an oder verwenden Sie `acus calibrate stereo`</translation>
+        </message>
+        <message>
+            <source>not written and not kept; --force does it all the same</source>
+            <translation type="unfinished">nicht geschrieben und nicht behalten; --force tut es trotzdem</translation>
         </message>
         <message>
             <source>name the folder of the pictures: --images DIR</source>
@@ -720,16 +756,76 @@
             <translation type="unfinished">--names {names!r} sind nicht zwei Namen, z. B. left,right</translation>
         </message>
         <message>
+            <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
+            <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm zurückgehalten|nicht an zurückgehaltenen Ansichten geprüft}  {world:?Welt|keine Welt}{found_bad:?  FÜR SCHLECHT BEFUNDEN: {found_bad}}}</translation>
+        </message>
+        <message>
+            <source>no calibrations in {folder}</source>
+            <translation type="unfinished">keine Kalibrierungen in {folder}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind}: Nur yaml und ros lassen sich schreiben</translation>
+        </message>
+        <message>
+            <source>{id} written to {files}</source>
+            <translation type="unfinished">{id} in {files} geschrieben</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
             <translation type="unfinished">--out {out}: Nur .pdf lässt sich schreiben</translation>
         </message>
         <message>
+            <source>{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}</source>
+            <translation type="unfinished">{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm auf {paper}: {file}</translation>
+        </message>
+        <message>
+            <source>{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or one with an odd and an even count of corners, does not}</source>
+            <translation type="unfinished">{ambiguous:?Hinweis: Diese Tafel sieht nach einer halben Drehung gleich aus; eine ChArUco-Tafel oder eine mit einer geraden und einer ungeraden Zahl von Ecken nicht}</translation>
+        </message>
+        <message>
+            <source>print at 100 %, not fitted to the page, and measure the line of 100 mm</source>
+            <translation type="unfinished">bei 100 % drucken, nicht an die Seite anpassen, und die Linie von 100 mm messen</translation>
+        </message>
+        <message>
+            <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
+            <translation type="unfinished">Unsicherheit  die Unsicherheit der Kalibrierung selbst ist nicht bekannt: Jeder angegebene Radius lässt sie aus</translation>
+        </message>
+        <message>
+            <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
+            <translation type="unfinished">{in_use:?in Gebrauch: {in_use}|keine Kalibrierung ist in Gebrauch}</translation>
+        </message>
+        <message>
             <source>--lens {lens!r}: there are {known_lenses}; equidistant is the fisheye model</source>
             <translation type="unfinished">--lens {lens!r}: Es gibt {known_lenses}; equidistant ist das Fischaugenmodell</translation>
+        </message>
+        <message>
+            <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
+            <translation type="unfinished">  nicht geprüft: die Größe der Tafel; geben Sie --baseline-mm oder eine zweite Tafel an (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>  not validated: no pairs were held back (--hold-back N)</source>
+            <translation type="unfinished">  nicht validiert: keine Paare wurden zurückgehalten (--hold-back N)</translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation type="unfinished">ausgelassen</translation>
+        </message>
+        <message>
+            <source>no camera is plugged in</source>
+            <translation type="unfinished">keine Kamera ist angesteckt</translation>
+        </message>
+        <message>
+            <source>saved in {file}</source>
+            <translation type="unfinished">in {file} gespeichert</translation>
+        </message>
+        <message>
+            <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
+            <translation type="unfinished">beide Kameras sehen {share:.0%} des Kegels der Nadel ({basis})</translation>
+        </message>
+        <message>
+            <source>not measured; use --display</source>
+            <translation type="unfinished">nicht gemessen; verwenden Sie --display</translation>
         </message>
         <message>
             <source>{depths!r} is no range of depths; give for example -30,120</source>
@@ -752,6 +848,18 @@
             <translation type="unfinished">der Test braucht einen echten Bildschirm, den eine Kamera sehen kann; es gibt keinen</translation>
         </message>
         <message>
+            <source>the driver's</source>
+            <translation type="unfinished">die des Treibers</translation>
+        </message>
+        <message>
+            <source>of the delivery, less the latency</source>
+            <translation type="unfinished">die der Lieferung, abzüglich der Latenz</translation>
+        </message>
+        <message>
+            <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
+            <translation type="unfinished">Farbe des Markers: das übliche Rot (im Bereich Tracker nimmt Lernen eine andere auf)</translation>
+        </message>
+        <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
             <translation type="unfinished">nennen Sie einen Punkt: entweder --voxel I,J,K oder --sop UID mit --pixel COL,ROW</translation>
         </message>
@@ -768,8 +876,16 @@
             <translation type="unfinished">--sop UID und --pixel COL,ROW gehören zusammen; geben Sie beide an</translation>
         </message>
         <message>
+            <source>LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|no HU: padding, nothing was measured there}</source>
+            <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|keine HU: Auffüllung, dort wurde nichts gemessen}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r}: drei Zahlen X,Y,Z in mm</translation>
+        </message>
+        <message>
+            <source>the library is empty; `acus ct import DIR` takes a CT in</source>
+            <translation type="unfinished">die Bibliothek ist leer; `acus ct import DIR` nimmt ein CT auf</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -788,16 +904,20 @@
             <translation type="unfinished">{option} {argument!r} ist nicht {form}: {count} ganze Zahlen, keine Leerzeichen</translation>
         </message>
         <message>
+            <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
+            <translation type="unfinished">keine seriellen Anschlüsse; stecken Sie den Roboter an oder versuchen Sie `acus device emulate`</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">der Roboter hat geantwortet, sendet aber keine Gelenkwinkel; siehe `acus device test`</translation>
         </message>
         <message>
             <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{level}  {id}  Version {version}  {title:~}{shipped:?|  (Ihre eigene)}</translation>
         </message>
         <message>
             <source>✖ cannot be used: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✖ kann nicht verwendet werden: {reason}</translation>
         </message>
         <message>
             <source>--ct DIR needs --plan FILE: entry and target lie in that CT</source>
@@ -805,27 +925,27 @@
         </message>
         <message>
             <source>✔ {exercise}: {id}, version {version}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ {exercise}: {id}, Version {version}</translation>
         </message>
         <message>
             <source># nothing is absent without a reason in {id}, version {version}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished"># nichts fehlt ohne Grund in {id}, Version {version}</translation>
         </message>
         <message>
             <source>  CT {manifest.ct.digest:.12}… is in the file</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  CT {manifest.ct.digest:.12}… liegt in der Datei</translation>
         </message>
         <message>
             <source>  CT {manifest.ct.digest:.12}… is not in the file</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  CT {manifest.ct.digest:.12}… liegt nicht in der Datei</translation>
         </message>
         <message>
             <source>{file}: {manifest.id}, version {manifest.exercise_version}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{file}: {manifest.id}, Version {manifest.exercise_version}</translation>
         </message>
         <message>
             <source>{id}, version {version} {known:?was there already|taken in}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id}, Version {version}, {known:?war schon da|aufgenommen}</translation>
         </message>
         <message>
             <source>there is no script {script!r}; there are {scripts}</source>
@@ -833,19 +953,23 @@
         </message>
         <message>
             <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # ohne Punkte|  # ohne Punkte|}</translation>
         </message>
         <message>
             <source>skill        median    quartiles  passed   time</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Können       Median    Quartile   bestanden Zeit</translation>
         </message>
         <message>
             <source>all skills in their order: {ordered_seeds:.0%} of the seeds</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">alle Können in ihrer Reihenfolge: {ordered_seeds:.0%} der Startwerte</translation>
         </message>
         <message>
             <source>neighbouring skills ordered right, any seed with any: {ordered_share:.0%}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">benachbarte Können richtig geordnet, jeder Startwert mit jedem: {ordered_share:.0%}</translation>
+        </message>
+        <message>
+            <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
+            <translation type="unfinished">{id}  {plate}  {touched} berührt, {picked} gewählt  {rig}  {trusted:?gut|passt nicht}</translation>
         </message>
         <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
@@ -853,15 +977,15 @@
         </message>
         <message>
             <source>nobody and nothing to show: add students first</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">niemand und nichts zu zeigen: fügen Sie zuerst Studierende hinzu</translation>
         </message>
         <message>
             <source>{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{started:@}  {total:5.1f}  Bestwert {best:5.1f}  Median {median:5.1f}</translation>
         </message>
         <message>
             <source>{pseudonym} has no attempt at {exercise} that counts</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} hat keinen Versuch an {exercise}, der zählt</translation>
         </message>
         <message>
             <source>{form}: the forms are {forms}</source>
@@ -873,23 +997,23 @@
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{attempts:#1 Versuch|# Versuche} von {students:#1 Person|# Personen} in {files} geschrieben</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bestwert {best:3.0f}, zuletzt {last:3.0f}, {trend}, {attempts}, vor {days:.1f} Tagen</translation>
         </message>
         <message>
             <source>no trend yet</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">noch kein Trend</translation>
         </message>
         <message>
             <source>{change:+.1f} a time</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{change:+.1f} je Versuch</translation>
         </message>
         <message>
             <source> ({others} not counted)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished"> ({others} zählen nicht)</translation>
         </message>
         <message>
             <source>--ct {ct} does not exist; name a folder or file with a CT</source>
@@ -897,75 +1021,75 @@
         </message>
         <message>
             <source>attempts are kept in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Versuche werden in {folder} aufbewahrt</translation>
         </message>
         <message>
             <source>no sessions in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">keine Sitzungen in {folder}</translation>
         </message>
         <message>
             <source>score: {verdict}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Punkte: {verdict}</translation>
         </message>
         <message>
             <source>signature: {verdict}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Signatur: {verdict}</translation>
         </message>
         <message>
             <source>admitted by the instructor: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">von der Kursleitung zugelassen: {reason}</translation>
         </message>
         <message>
             <source>{file} is not sealed by this station: lists read the record</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{file} ist nicht von dieser Station versiegelt: Listen lesen die Aufzeichnung</translation>
         </message>
         <message>
             <source>the index was altered: {problem}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">das Verzeichnis wurde verändert: {problem}</translation>
         </message>
         <message>
             <source>not comparable: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">nicht vergleichbar: {reason}</translation>
         </message>
         <message>
             <source>comparable</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vergleichbar</translation>
         </message>
         <message>
             <source>{id} deleted: `acus session restore {id}` brings it back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} gelöscht: `acus session restore {id}` holt den Versuch zurück</translation>
         </message>
         <message>
             <source>{id} is back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} ist wieder da</translation>
         </message>
         <message>
             <source>{id} was closed as it stands: listed as unfinished</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} wurde abgeschlossen, wie er ist: als unvollendet geführt</translation>
         </message>
         <message>
             <source>{id} has its end: there was nothing to recover, and nothing was changed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} hat sein Ende: Es gab nichts zu retten, und nichts wurde verändert</translation>
         </message>
         <message>
             <source>{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` keeps it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` behält ihn</translation>
         </message>
         <message>
             <source>no attempt was cut off in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">kein Versuch wurde in {folder} abgebrochen</translation>
         </message>
         <message>
             <source>nothing to do</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">nichts zu tun</translation>
         </message>
         <message>
             <source>{left:#1 stays|# stay} there, not signed by this station: `acus session list --folder {from}` lists them</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{left:#1 bleibt|# bleiben} dort, nicht von dieser Station signiert: `acus session list --folder {from}` zeigt sie</translation>
         </message>
         <message>
             <source>{gathered:#1 attempt|# attempts} brought from {from} to {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{gathered:#1 Versuch|# Versuche} aus {from} nach {folder} geholt</translation>
         </message>
         <message>
             <source>--out {out}: only .csv can be written</source>
@@ -973,7 +1097,7 @@
         </message>
         <message>
             <source>{rows:#1 row|# rows} written to {files}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{rows:#1 Zeile|# Zeilen} in {files} geschrieben</translation>
         </message>
         <message>
             <source>--trajectory takes exactly one session id</source>
@@ -981,91 +1105,91 @@
         </message>
         <message>
             <source>student</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Person</translation>
         </message>
         <message>
             <source>exercise</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Übung</translation>
         </message>
         <message>
             <source>state</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Zustand</translation>
         </message>
         <message>
             <source>duration</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Dauer</translation>
         </message>
         <message>
             <source>score</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Punkte</translation>
         </message>
         <message>
             <source>signature</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Signatur</translation>
         </message>
         <message>
             <source>— altered</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">— verändert</translation>
         </message>
         <message>
             <source>{total:.0f} % passed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{total:.0f} % bestanden</translation>
         </message>
         <message>
             <source>{total:.0f} %</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{total:.0f} %</translation>
         </message>
         <message>
             <source>no student's attempt: {hands}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">kein Versuch einer Person: {hands}</translation>
         </message>
         <message>
             <source>± {radius:.1f} mm (95 %), median</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">± {radius:.1f} mm (95 %), Median</translation>
         </message>
         <message>
             <source>started</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Beginn</translation>
         </message>
         <message>
             <source>reason</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Grund</translation>
         </message>
         <message>
             <source>{seconds:.1f} s</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{seconds:.1f} s</translation>
         </message>
         <message>
             <source>scans</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Scans</translation>
         </message>
         <message>
             <source>file</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Datei</translation>
         </message>
         <message>
             <source>hand</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Hand</translation>
         </message>
         <message>
             <source>whose</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">von wem</translation>
         </message>
         <message>
             <source>calibration</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Kalibrierung</translation>
         </message>
         <message>
             <source>tip known to</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Spitze auf</translation>
         </message>
         <message>
             <source>published</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Literatur</translation>
         </message>
         <message>
             <source>problem</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Problem</translation>
         </message>
         <message>
             <source>study {name} takes no --{option}; leave it out</source>
@@ -1074,6 +1198,10 @@
         <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r}: Verwenden Sie {valid}</translation>
+        </message>
+        <message>
+            <source>{files}: from world (robot) to patient (LPS)</source>
+            <translation type="unfinished">{files}: von der Welt (Roboter) zum Patienten (LPS)</translation>
         </message>
         <message>
             <source>--origin {origin!r}; valid names: {names}</source>
@@ -2845,7 +2973,7 @@
         </message>
         <message>
             <source>missing, without which its pixels cannot be told: {names}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">es fehlt, ohne das seine Bildpunkte nicht zu deuten sind: {names}</translation>
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>
@@ -4769,19 +4897,19 @@
         </message>
         <message>
             <source>screen and needle: not checked</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bildschirm und Nadel: nicht geprüft</translation>
         </message>
         <message>
             <source>FRE says how well the points fit each other. It is not the accuracy at the target, and a small FRE does not promise one.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Der FRE sagt, wie gut die Punkte zueinander passen. Er ist nicht die Genauigkeit am Ziel, und ein kleiner FRE verspricht keine.</translation>
         </message>
         <message>
             <source>FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect at the target: it grows with the distance from the fiducials.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Der FLE ist der Fehler beim Berühren eines Punkts, aus dem FRE geschätzt. Der TRE ist der am Ziel zu erwartende Fehler: Er wächst mit dem Abstand von den Passmarken.</translation>
         </message>
         <message>
             <source>A shift that all touches share, a wrong tip length for instance, does not show in the FRE.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Eine Verschiebung, die alle Berührungen teilen, etwa eine falsche Spitzenlänge, zeigt sich im FRE nicht.</translation>
         </message>
         <message>
             <source>screen and needle agree within ± {mm} mm (95 %)</source>
@@ -4789,19 +4917,19 @@
         </message>
         <message>
             <source>touched</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">berührten</translation>
         </message>
         <message>
             <source>picked</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">gewählten</translation>
         </message>
         <message>
             <source>touches</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Berührungen</translation>
         </message>
         <message>
             <source>picks in the CT</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Punkte im CT</translation>
         </message>
         <message>
             <source>TRE at the target: {expected_mm} mm RMS expected, at least 95 % within {within_95_mm} mm ({check_world_condition})</source>
@@ -4837,11 +4965,11 @@
         </message>
         <message>
             <source>long</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">lang</translation>
         </message>
         <message>
             <source>short</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">kurz</translation>
         </message>
         <message>
             <source>{finding}: the CT's spacing is wrong, or this is another plate</source>
@@ -4853,11 +4981,11 @@
         </message>
         <message>
             <source>{mm:.1f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{mm:.1f}</translation>
         </message>
         <message>
             <source>{mm:.2f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{mm:.2f}</translation>
         </message>
         <message>
             <source>one of them has no score</source>
@@ -5429,7 +5557,7 @@
         </message>
         <message>
             <source>Signs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Drehsinn</translation>
         </message>
         <message>
             <source>simulated robot: its signs are known</source>
@@ -5469,11 +5597,11 @@
         </message>
         <message>
             <source>at most {force:g} N</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">höchstens {force:g} N</translation>
         </message>
         <message>
             <source>{cameras} of 2 cameras</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{cameras} von 2 Kameras</translation>
         </message>
         <message>
             <source>plug both cameras in; menu Cameras</source>
@@ -5485,47 +5613,47 @@
         </message>
         <message>
             <source>check the camera's cable; menu Cameras</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">prüfen Sie das Kabel der Kamera; Menü Kameras</translation>
         </message>
         <message>
             <source>wait a moment</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">einen Augenblick warten</translation>
         </message>
         <message>
             <source>the picture is dark</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">das Bild ist dunkel</translation>
         </message>
         <message>
             <source>lens cap, light, exposure</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Objektivdeckel, Licht, Belichtung</translation>
         </message>
         <message>
             <source>{share:.0f} % of the picture is overexposed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{share:.0f} % des Bildes sind überbelichtet</translation>
         </message>
         <message>
             <source>less light, or a shorter exposure</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">weniger Licht oder eine kürzere Belichtung</translation>
         </message>
         <message>
             <source>{rate:.0f} pictures a second instead of {wanted:.0f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{rate:.0f} Bilder je Sekunde statt {wanted:.0f}</translation>
         </message>
         <message>
             <source>own USB port for each camera; lock the exposure</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">ein eigener USB-Anschluss für jede Kamera; die Belichtung festhalten</translation>
         </message>
         <message>
             <source>the marker's edge is {width:.1f} px wide</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">die Kante des Markers ist {width:.1f} px breit</translation>
         </message>
         <message>
             <source>focus the lens on the needle and lock it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">das Objektiv auf die Nadel scharf stellen und feststellen</translation>
         </message>
         <message>
             <source>Marker</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Marker</translation>
         </message>
         <message>
             <source>found in both pictures</source>
@@ -5537,7 +5665,7 @@
         </message>
         <message>
             <source>pictures first</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">zuerst die Bilder</translation>
         </message>
         <message>
             <source>only one camera</source>
@@ -5549,7 +5677,7 @@
         </message>
         <message>
             <source>Cameras agree</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Kameras stimmen überein</translation>
         </message>
         <message>
             <source>no point yet</source>
@@ -5561,7 +5689,7 @@
         </message>
         <message>
             <source>residual {residual:.2f} px</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Restfehler {residual:.2f} px</translation>
         </message>
         <message>
             <source>a camera was moved, or robot and cameras differ: `acus calibrate world`</source>
@@ -8672,8 +8800,8 @@ Nein: diese unter einem anderen Namen speichern.</translation>
         <message numerus="yes">
             <source>{n} attempts of each skill, without structures of risk</source>
             <translation type="unfinished">
-                <numerusform>{n} Versuche je Skript, ohne Risikostrukturen</numerusform>
-                <numerusform />
+                <numerusform>{n} Versuch jedes Könnens, ohne Risikostrukturen</numerusform>
+                <numerusform>{n} Versuche jedes Könnens, ohne Risikostrukturen</numerusform>
             </translation>
         </message>
         <message>
@@ -10060,11 +10188,11 @@ Anteil</translation>
         </message>
         <message>
             <source>checked</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">geprüft</translation>
         </message>
         <message>
             <source>checked with remarks</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">mit Anmerkungen geprüft</translation>
         </message>
         <message>
             <source>check failed</source>
@@ -10072,15 +10200,15 @@ Anteil</translation>
         </message>
         <message>
             <source>check not finished</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Prüfung nicht beendet</translation>
         </message>
         <message>
             <source>{verdict} today {time}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{verdict} heute {time}</translation>
         </message>
         <message>
             <source>{verdict} {date:%Y-%m-%d %H:%M}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{verdict} {date:%Y-%m-%d %H:%M}</translation>
         </message>
         <message>
             <source>not checked</source>
@@ -10345,8 +10473,8 @@ Anteil</translation>
         <message numerus="yes">
             <source>The program ended in the middle of {n} attempts:</source>
             <translation type="unfinished">
+                <numerusform>Das Programm endete mitten in {n} Versuch:</numerusform>
                 <numerusform>Das Programm endete mitten in {n} Versuchen:</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -10420,8 +10548,8 @@ Anteil</translation>
         <message numerus="yes">
             <source>{n} attempts have come; they are in the list (F7).</source>
             <translation type="unfinished">
+                <numerusform>{n} Versuch ist angekommen; er steht in der Liste (F7).</numerusform>
                 <numerusform>{n} Versuche sind angekommen; sie stehen in der Liste (F7).</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -10456,7 +10584,7 @@ Anteil</translation>
             <source>met {n} times here</source>
             <translation type="unfinished">
                 <numerusform>hier {n}-mal getroffen</numerusform>
-                <numerusform />
+                <numerusform>hier {n}-mal getroffen</numerusform>
             </translation>
         </message>
         <message>
@@ -10712,8 +10840,8 @@ Anteil</translation>
         <message numerus="yes">
             <source>{n} attempts declared void</source>
             <translation type="unfinished">
+                <numerusform>{n} Versuch für ungültig erklärt</numerusform>
                 <numerusform>{n} Versuche für ungültig erklärt</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -10723,15 +10851,15 @@ Anteil</translation>
         <message numerus="yes">
             <source>{n} attempts admitted</source>
             <translation type="unfinished">
-                <numerusform>{n} Versuche anerkannt</numerusform>
-                <numerusform />
+                <numerusform>{n} Versuch zugelassen</numerusform>
+                <numerusform>{n} Versuche zugelassen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{done}: {n} attempts</source>
             <translation type="unfinished">
+                <numerusform>{done}: {n} Versuch</numerusform>
                 <numerusform>{done}: {n} Versuche</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -11275,8 +11403,8 @@ Buchstaben: Richtungen des Patienten
         <message numerus="yes">
             <source>{n} points</source>
             <translation type="unfinished">
+                <numerusform>{n} Punkt</numerusform>
                 <numerusform>{n} Punkte</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -11390,8 +11518,8 @@ Buchstaben: Richtungen des Patienten
         <message numerus="yes">
             <source>{n} days left</source>
             <translation type="unfinished">
-                <numerusform>Tage übrig: {n}</numerusform>
-                <numerusform />
+                <numerusform>noch {n} Tag</numerusform>
+                <numerusform>noch {n} Tage</numerusform>
             </translation>
         </message>
         <message>
@@ -11413,8 +11541,8 @@ Buchstaben: Richtungen des Patienten
         <message numerus="yes">
             <source>deleted; can be brought back for {n} days</source>
             <translation type="unfinished">
-                <numerusform>gelöscht; lässt sich zurückholen (Tage übrig: {n})</numerusform>
-                <numerusform />
+                <numerusform>gelöscht; kann noch {n} Tag lang zurückgeholt werden</numerusform>
+                <numerusform>gelöscht; kann noch {n} Tage lang zurückgeholt werden</numerusform>
             </translation>
         </message>
         <message>
@@ -11435,19 +11563,19 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>this computer was too busy: the simulated cameras' pictures came too late; close other programs, then try again</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">dieser Rechner war zu beschäftigt: Die Bilder der simulierten Kameras kamen zu spät; schließen Sie andere Programme und versuchen Sie es noch einmal</translation>
         </message>
         <message>
             <source>pictures and report are in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bilder und Bericht liegen in {folder}</translation>
         </message>
         <message>
             <source>  void: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  ungültig: {reason}</translation>
         </message>
         <message>
             <source>{total:.0f} of 100</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{total:.0f} von 100</translation>
         </message>
         <message>
             <source>void</source>
@@ -11455,11 +11583,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>not passed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">nicht bestanden</translation>
         </message>
         <message>
             <source>session: {record} (`acus session show`, `replay`: by this path)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Sitzung: {record} (`acus session show`, `replay`: mit diesem Pfad)</translation>
         </message>
         <message>
             <source>held</source>
@@ -11772,15 +11900,15 @@ Buchstaben: Richtungen des Patienten
         <message numerus="yes">
             <source>{n} attempts are allowed.</source>
             <translation type="unfinished">
+                <numerusform>{n} Versuch ist erlaubt.</numerusform>
                 <numerusform>{n} Versuche sind erlaubt.</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message numerus="yes">
             <source>{left} of {n} attempts are left.</source>
             <translation type="unfinished">
-                <numerusform>Verbleibende Versuche: {left} von {n}.</numerusform>
-                <numerusform />
+                <numerusform>{left} von {n} Versuch ist übrig.</numerusform>
+                <numerusform>{left} von {n} Versuchen sind übrig.</numerusform>
             </translation>
         </message>
         <message>
@@ -14085,27 +14213,27 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>no students yet: `acus people add` or `acus people roster`</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">noch keine Studierenden: `acus people add` oder `acus people roster`</translation>
         </message>
         <message>
             <source>{pseudonym} was added; PIN {pin}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} wurde hinzugefügt; PIN {pin}</translation>
         </message>
         <message>
             <source>nothing was taken</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">nichts wurde übernommen</translation>
         </message>
         <message>
             <source>{added:#1 student|# students} added, {updated:#} updated</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{added:#1 Person|# Personen} hinzugefügt, {updated:#} geändert</translation>
         </message>
         <message>
             <source>{pseudonym} has a new PIN</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} hat eine neue PIN</translation>
         </message>
         <message>
             <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} wurde gelöscht; gelöschte Aufzeichnungen: {records}, als niemandes behalten: {anonymous}</translation>
         </message>
         <message>
             <source>Recovery key</source>
@@ -14113,55 +14241,55 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>the password was changed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">das Passwort wurde geändert</translation>
         </message>
         <message>
             <source>Password now</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Jetziges Passwort</translation>
         </message>
         <message>
             <source>the recovery key that was printed before is worth nothing any more</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">der zuvor gedruckte Wiederherstellungsschlüssel gilt nicht mehr</translation>
         </message>
         <message>
             <source>recovery key: {key}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Wiederherstellungsschlüssel: {key}</translation>
         </message>
         <message>
             <source>Print it and lock it away: it sets a new password, and opens the station's key in a backup. It is kept nowhere.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Drucken Sie ihn aus und schließen Sie ihn weg: Er setzt ein neues Passwort und öffnet den Schlüssel der Station in einer Sicherung. Er wird nirgends aufbewahrt.</translation>
         </message>
         <message>
             <source>{id:24} {title}: {items:#1 exercise|# exercises}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id:24} {title}: {items:#1 Übung|# Übungen}</translation>
         </message>
         <message>
             <source>no courses in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">keine Kurse in {folder}</translation>
         </message>
         <message>
             <source>{title} ({groups})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{title} ({groups})</translation>
         </message>
         <message>
             <source>, from {date}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">, ab {date}</translation>
         </message>
         <message>
             <source>, until {date}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">, bis {date}</translation>
         </message>
         <message>
             <source>  {exercise} (version {version}): {purpose}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  {exercise} (Version {version}): {purpose}</translation>
         </message>
         <message>
             <source>{title} was not saved: correct these, or import the exercises first</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{title} wurde nicht gespeichert: Berichtigen Sie dies oder nehmen Sie zuerst die Übungen auf</translation>
         </message>
         <message>
             <source>{title} saved: {path}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{title} gespeichert: {path}</translation>
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -14222,8 +14350,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>{n} students added, {m} updated</source>
             <translation type="unfinished">
-                <numerusform>{n} Teilnehmer hinzugefügt, {m} aktualisiert</numerusform>
-                <numerusform />
+                <numerusform>{n} Person hinzugefügt, {m} geändert</numerusform>
+                <numerusform>{n} Personen hinzugefügt, {m} geändert</numerusform>
             </translation>
         </message>
         <message>
@@ -14273,8 +14401,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>Release {n} results of {title}?</source>
             <translation type="unfinished">
+                <numerusform>{n} Ergebnis von {title} freigeben?</numerusform>
                 <numerusform>{n} Ergebnisse von {title} freigeben?</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -14292,8 +14420,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>{n} results released</source>
             <translation type="unfinished">
+                <numerusform>{n} Ergebnis freigegeben</numerusform>
                 <numerusform>{n} Ergebnisse freigegeben</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -14363,8 +14491,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>{n} attempts count</source>
             <translation type="unfinished">
+                <numerusform>{n} Versuch zählt</numerusform>
                 <numerusform>{n} Versuche zählen</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -14526,8 +14654,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>{n} results wait for their release</source>
             <translation type="unfinished">
-                <numerusform>Ergebnisse, die auf Freigabe warten: {n}</numerusform>
-                <numerusform />
+                <numerusform>{n} Ergebnis wartet auf seine Freigabe</numerusform>
+                <numerusform>{n} Ergebnisse warten auf ihre Freigabe</numerusform>
             </translation>
         </message>
         <message>
@@ -14704,7 +14832,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{students}, {exercises}, {attempts}: bewertet, vergleichbar, von einer Person, nicht für ungültig erklärt.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -16151,6 +16279,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>The libraries cannot be listed: {error}</source>
             <translation type="unfinished">Die Bibliotheken lassen sich nicht auflisten: {error}</translation>
+        </message>
+        <message>
+            <source>This language was translated, and not reviewed by native radiologists.</source>
+            <translation type="unfinished">Diese Sprache wurde übersetzt, aber nicht von muttersprachlichen Radiologinnen und Radiologen durchgesehen.</translation>
         </message>
         <message>
             <source>Acus is under the Apache License 2.0 (LICENSE, NOTICE).</source>
@@ -17967,134 +18099,134 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>, {n} attempts</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>, {n} Versuch</numerusform>
+                <numerusform>, {n} Versuche</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>keine DICOM-Serie in {listing_path}: {n} Datei übergangen ({first_path_name}: {first_reason})</numerusform>
+                <numerusform>keine DICOM-Serie in {listing_path}: {n} Dateien übergangen ({first_path_name}: {first_reason})</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>pick {n} more beads in the CT, or none</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>wählen Sie noch {n} Kugel im CT, oder keine</numerusform>
+                <numerusform>wählen Sie noch {n} Kugeln im CT, oder keine</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>the names of the pictures speak of {n} cameras; two are needed, e.g. left01.png and right01.png</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>die Namen der Bilder sprechen von {n} Kamera; zwei werden gebraucht, z. B. left01.png und right01.png</numerusform>
+                <numerusform>die Namen der Bilder sprechen von {n} Kameras; zwei werden gebraucht, z. B. left01.png und right01.png</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>touch {n} more fiducials</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>berühren Sie noch {n} Passmarke</numerusform>
+                <numerusform>berühren Sie noch {n} Passmarken</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{name}: {n} contours {reason} left out</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{name}: {n} Kontur {reason} ausgelassen</numerusform>
+                <numerusform>{name}: {n} Konturen {reason} ausgelassen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Versuch</numerusform>
+                <numerusform>{n} Versuche</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Versuch liegt in {folder}, wo frühere Versionen Versuche aufbewahrten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` zeigt alle</numerusform>
+                <numerusform>{n} Versuche liegen in {folder}, wo frühere Versionen Versuche aufbewahrten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` zeigt alle</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Versuch einer Person ist für die Kursleitung: {variable} enthält das Passwort</numerusform>
+                <numerusform>{n} Versuche von Studierenden sind für die Kursleitung: {variable} enthält das Passwort</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts that count</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Versuch, der zählt</numerusform>
+                <numerusform>{n} Versuche, die zählen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} contours that are in the file twice counted once</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Kontur, die doppelt in der Datei steht, einmal gezählt</numerusform>
+                <numerusform>{n} Konturen, die doppelt in der Datei stehen, einmal gezählt</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} exercises</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Übung</numerusform>
+                <numerusform>{n} Übungen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} files hold bytes behind the pixels, which are left out</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Datei enthält hinter den Bildpunkten Bytes, die ausgelassen werden</numerusform>
+                <numerusform>{n} Dateien enthalten hinter den Bildpunkten Bytes, die ausgelassen werden</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} gaps of missing slices left empty</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Lücke fehlender Schichten leer gelassen</numerusform>
+                <numerusform>{n} Lücken fehlender Schichten leer gelassen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Region {reason} ausgelassen: Die Datei sagt nicht, was sie ist</numerusform>
+                <numerusform>{n} Regionen {reason} ausgelassen: Die Datei sagt nicht, was sie sind</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} series, none of which can be used as it is</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Serie, die so nicht verwendbar ist</numerusform>
+                <numerusform>{n} Serien, von denen keine so verwendbar ist</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} series, {usable} of which can be used</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Serie, {usable} davon verwendbar</numerusform>
+                <numerusform>{n} Serien, {usable} davon verwendbar</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} students</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Person</numerusform>
+                <numerusform>{n} Personen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} {name} points: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} Punkt „{name}“: Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</numerusform>
+                <numerusform>{n} Punkte „{name}“: Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</numerusform>
             </translation>
         </message>
         <message>
@@ -18275,138 +18407,225 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>the output could not be written: {reason}; free some space there</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">die Ausgabe konnte nicht geschrieben werden: {reason}; schaffen Sie dort Platz</translation>
         </message>
         <message>
             <source>a question was not answered; nothing was done</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">eine Frage wurde nicht beantwortet; nichts wurde getan</translation>
         </message>
         <message>
             <source>Invalid value: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ungültiger Wert: {reason}</translation>
         </message>
         <message>
             <source>no daily check was made yet</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">noch keine tägliche Prüfung wurde gemacht</translation>
         </message>
         <message>
             <source>Rest the tip in {name} and hold still; press Enter</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Legen Sie die Spitze in {name} und halten Sie still; drücken Sie die Eingabetaste</translation>
         </message>
         <message>
             <source>Instructor's password</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Passwort der Kursleitung</translation>
         </message>
         <message>
             <source>compiling for the first time, up to a minute …</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">erstmaliges Übersetzen des Programms, bis zu einer Minute …</translation>
         </message>
         <message>
             <source>{exercise} on the simulated device {device}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{exercise} auf dem simulierten Gerät {device}</translation>
         </message>
         <message>
             <source>{exercise} on the real device {device}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{exercise} auf dem echten Gerät {device}</translation>
         </message>
         <message>
             <source>{energy:.1f} mJ</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{energy:.1f} mJ</translation>
         </message>
         <message>
             <source>energy</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Energie</translation>
         </message>
         <message>
             <source>bound</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Grenze</translation>
         </message>
         <message>
             <source>cost</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Kosten</translation>
         </message>
         <message>
             <source>model</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Modell</translation>
         </message>
         <message>
             <source>why</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Grund</translation>
         </message>
         <message>
             <source>note</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Hinweis</translation>
         </message>
         <message>
             <source>  no effects</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  keine Effekte</translation>
         </message>
         <message>
             <source>
   touches {targets} targets, each for {dwell:g} s within {radius:g} mm; the hand moves the tool's handle</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">
+  berührt {targets} Ziele, jedes {dwell:g} s lang innerhalb von {radius:g} mm; die Hand bewegt den Griff des Instruments</translation>
         </message>
         <message>
             <source>    {target}  at ({place}) mm LPS, {depth:.0f} mm deep: 1 mm of hand moves the tip {scale:.2f} mm the other way</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">    {target}  bei ({place}) mm LPS, {depth:.0f} mm tief: 1 mm der Hand bewegt die Spitze {scale:.2f} mm in die Gegenrichtung</translation>
         </message>
         <message>
             <source>
   {metric} passes to {limit:g}: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">
+  {metric} besteht bis {limit:g}: {reason}</translation>
         </message>
         <message>
             <source>
   refused {kind}: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">
+  abgelehnt {kind}: {reason}</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  der Patient verlangt</translation>
         </message>
         <message>
             <source>      left out: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">      weggelassen: {reason}</translation>
         </message>
         <message>
             <source>      absent</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">      fehlt</translation>
         </message>
         <message>
             <source>      absent, {cost}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">      fehlt, {cost}</translation>
         </message>
         <message>
             <source>  add it: `acus exercise suggest {name}`</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  ergänzen: `acus exercise suggest {name}`</translation>
         </message>
         <message>
             <source>{time:.2f} ms for each picture of a camera, nothing of a tick</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{time:.2f} ms je Bild einer Kamera, nichts von einem Takt</translation>
         </message>
         <message>
             <source>{time:.0f} ns per tick, {share:.4f} % of 1 ms</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{time:.0f} ns je Takt, {share:.4f} % von 1 ms</translation>
         </message>
         <message>
             <source>{items}, {item}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{items}, {item}</translation>
         </message>
         <message>
             <source>{items} and {last}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{items} und {last}</translation>
         </message>
         <message>
             <source>0.5</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">0,5</translation>
         </message>
         <message>
             <source>%Y-%m-%d %H:%M</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">%d.%m.%Y, %H:%M</translation>
         </message>
         <message>
             <source>%Y-%m-%d</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">%d.%m.%Y</translation>
+        </message>
+        <message>
+            <source>{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}{trial_states:? (tried with {trial_states} states in {trial_s} s)}}</source>
+            <translation type="unfinished">{refused:?✖|✔} {law}: {refused:?abgelehnt: {refused}|{title}{trial_states:? (mit {trial_states} Zuständen in {trial_s} s erprobt)}}</translation>
+        </message>
+        <message>
+            <source>nothing matches</source>
+            <translation type="unfinished">nichts passt</translation>
+        </message>
+        <message>
+            <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
+            <translation type="unfinished">bei 100 % drucken, die Linie von 100 mm prüfen, ausschneiden, falten, kleben (docs/pen.md)</translation>
+        </message>
+        <message>
+            <source>tip measured</source>
+            <translation type="unfinished">Spitze gemessen</translation>
+        </message>
+        <message>
+            <source>tip by the drawing: `acus pen calibrate`</source>
+            <translation type="unfinished">Spitze nach der Zeichnung: `acus pen calibrate`</translation>
+        </message>
+        <message>
+            <source>stand the tip in a dimple on the sheet and rock the pen to every side …</source>
+            <translation type="unfinished">stellen Sie die Spitze in eine Mulde auf dem Blatt und schwenken Sie den Stift nach allen Seiten …</translation>
+        </message>
+        <message>
+            <source>now lay the pen into a groove and roll it about itself by a quarter turn or more …</source>
+            <translation type="unfinished">legen Sie den Stift nun in eine Rille und rollen Sie ihn um sich selbst, eine Vierteldrehung oder mehr …</translation>
+        </message>
+        <message>
+            <source>no files of your own yet; save them in these folders (make what is missing):</source>
+            <translation type="unfinished">noch keine eigenen Dateien; speichern Sie sie in diesen Ordnern (legen Sie an, was fehlt):</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts in {folder}, {deleted} deleted</source>
+            <translation type="unfinished">{attempts} Versuche in {folder}, {deleted} gelöscht</translation>
+        </message>
+        <message>
+            <source>index: {index:?{index}|in memory, the folder can only be read}</source>
+            <translation type="unfinished">Verzeichnis: {index:?{index}|im Speicher, der Ordner ist nur lesbar}</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts indexed, {gone} of the old index are gone</source>
+            <translation type="unfinished">{attempts} Versuche verzeichnet, {gone} des alten Verzeichnisses sind weg</translation>
+        </message>
+        <message>
+            <source>the station's key in it was sealed by an earlier build, and nothing opens it any more: change the password (`acus people instructor`), which prints a new recovery key, and make the backup again</source>
+            <translation type="unfinished">der Schlüssel der Station darin wurde von einem früheren Programm versiegelt, und nichts öffnet ihn mehr: Ändern Sie das Passwort (`acus people instructor`), was einen neuen Wiederherstellungsschlüssel druckt, und machen Sie die Sicherung noch einmal</translation>
+        </message>
+        <message>
+            <source>without the station's key: set a password first (`acus people instructor`) if its records are to be verified on another computer</source>
+            <translation type="unfinished">ohne den Schlüssel der Station: Setzen Sie zuerst ein Passwort (`acus people instructor`), wenn ihre Aufzeichnungen auf einem anderen Rechner geprüft werden sollen</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} written to {files}</source>
+            <translation type="unfinished">{records:#1 Aufzeichnung|# Aufzeichnungen} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>not in it: {}</source>
+            <translation type="unfinished">nicht darin: {}</translation>
+        </message>
+        <message>
+            <source>{records} records restored, {kept} were here already</source>
+            <translation type="unfinished">{records} Aufzeichnungen wiederhergestellt, {kept} waren schon hier</translation>
+        </message>
+        <message>
+            <source>✖ {} is another record here: the one here was kept</source>
+            <translation type="unfinished">✖ {} ist hier eine andere Aufzeichnung: Die hiesige wurde behalten</translation>
+        </message>
+        <message>
+            <source>{erased} records left out: their person was erased</source>
+            <translation type="unfinished">{erased} Aufzeichnungen ausgelassen: Ihre Person wurde gelöscht</translation>
+        </message>
+        <message>
+            <source>✖ not taken: {}</source>
+            <translation type="unfinished">✖ nicht übernommen: {}</translation>
+        </message>
+        <message>
+            <source>{deleted:#1 attempt|# attempts} deleted for good</source>
+            <translation type="unfinished">{deleted:#1 Versuch|# Versuche} endgültig gelöscht</translation>
+        </message>
+        <message>
+            <source>never warns</source>
+            <translation type="unfinished">warnt nie</translation>
         </message>
     </context>
 </TS>

@@ -692,6 +692,38 @@
             <translation type="unfinished">l’entrée s’est terminée avant la routine ; rien n’a été gardé</translation>
         </message>
         <message>
+            <source>places        agree within {disagreement_mm:.2f} mm</source>
+            <translation type="unfinished">positions     concordent à {disagreement_mm:.2f} mm près</translation>
+        </message>
+        <message>
+            <source>{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</source>
+            <translation type="unfinished">{key:13} se trouve à {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</translation>
+        </message>
+        <message>
+            <source>residual      {rms_px:.3f} px in {pictures:#} pictures</source>
+            <translation type="unfinished">résidu        {rms_px:.3f} px sur {pictures:#} images</translation>
+        </message>
+        <message>
+            <source>{scale:?scale         {scale:.5f} ± {scale_sd:.5f} of the board's size}</source>
+            <translation type="unfinished">{scale:?échelle       {scale:.5f} ± {scale_sd:.5f} de la taille de la mire}</translation>
+        </message>
+        <message>
+            <source>{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm (standard deviation per axis)}</source>
+            <translation type="unfinished">{fulcrum_sd_mm:?pivot         sûr à ± {fulcrum_sd_mm:.2f} mm (écart type par axe)}</translation>
+        </message>
+        <message>
+            <source>look at       {}</source>
+            <translation type="unfinished">à regarder    {}</translation>
+        </message>
+        <message>
+            <source>not used      {name}: {text}</source>
+            <translation type="unfinished">non utilisé   {name}: {text}</translation>
+        </message>
+        <message>
+            <source>{kept:?in use from now on: {id}|not kept: add --keep to use it}</source>
+            <translation type="unfinished">{kept:?utilisé désormais : {id}|non conservé : ajoutez --keep pour l’utiliser}</translation>
+        </message>
+        <message>
             <source>--at {place!r} is not {pose}: millimetres and degrees, e.g. -60,180,90,180,0,0</source>
             <translation type="unfinished">--at {place!r} n’est pas {pose} : millimètres et degrés, p. ex. -60,180,90,180,0,0</translation>
         </message>
@@ -702,6 +734,10 @@
         <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out prend l’objectif d’une seule caméra ; ces images sont de {groups} : donnez un dossier pour chacune, ou utilisez `acus calibrate stereo`</translation>
+        </message>
+        <message>
+            <source>not written and not kept; --force does it all the same</source>
+            <translation type="unfinished">ni écrit ni conservé ; --force le fait quand même</translation>
         </message>
         <message>
             <source>name the folder of the pictures: --images DIR</source>
@@ -720,16 +756,76 @@
             <translation type="unfinished">--names {names!r} n’est pas deux noms, p. ex. left,right</translation>
         </message>
         <message>
+            <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
+            <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm mis de côté|non vérifié sur des vues mises de côté}  {world:?monde|sans monde}{found_bad:?  JUGÉ MAUVAIS : {found_bad}}}</translation>
+        </message>
+        <message>
+            <source>no calibrations in {folder}</source>
+            <translation type="unfinished">aucun étalonnage dans {folder}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind} : seuls yaml et ros peuvent être écrits</translation>
+        </message>
+        <message>
+            <source>{id} written to {files}</source>
+            <translation type="unfinished">{id} écrit dans {files}</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
             <translation type="unfinished">--out {out} : seul .pdf peut être écrit</translation>
         </message>
         <message>
+            <source>{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}</source>
+            <translation type="unfinished">{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm sur {paper} : {file}</translation>
+        </message>
+        <message>
+            <source>{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or one with an odd and an even count of corners, does not}</source>
+            <translation type="unfinished">{ambiguous:?remarque : cette mire est identique après un demi-tour ; une mire ChArUco, ou une mire avec un nombre pair et un nombre impair de coins, ne l’est pas}</translation>
+        </message>
+        <message>
+            <source>print at 100 %, not fitted to the page, and measure the line of 100 mm</source>
+            <translation type="unfinished">imprimez à 100 %, sans ajuster à la page, et mesurez la ligne de 100 mm</translation>
+        </message>
+        <message>
+            <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
+            <translation type="unfinished">incertitude   l’incertitude propre à l’étalonnage n’est pas connue : aucun rayon indiqué ne la comprend</translation>
+        </message>
+        <message>
+            <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
+            <translation type="unfinished">{in_use:?utilisé : {in_use}|aucun étalonnage n’est utilisé}</translation>
+        </message>
+        <message>
             <source>--lens {lens!r}: there are {known_lenses}; equidistant is the fisheye model</source>
             <translation type="unfinished">--lens {lens!r} : il y a {known_lenses} ; equidistant est le modèle fisheye</translation>
+        </message>
+        <message>
+            <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
+            <translation type="unfinished">  non vérifié : la taille de la mire ; indiquez --baseline-mm ou une seconde mire (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>  not validated: no pairs were held back (--hold-back N)</source>
+            <translation type="unfinished">  non validé : aucune paire n’a été mise de côté (--hold-back N)</translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation type="unfinished">écarté</translation>
+        </message>
+        <message>
+            <source>no camera is plugged in</source>
+            <translation type="unfinished">aucune caméra n’est branchée</translation>
+        </message>
+        <message>
+            <source>saved in {file}</source>
+            <translation type="unfinished">enregistré dans {file}</translation>
+        </message>
+        <message>
+            <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
+            <translation type="unfinished">les deux caméras voient {share:.0%} du cône de l’aiguille ({basis})</translation>
+        </message>
+        <message>
+            <source>not measured; use --display</source>
+            <translation type="unfinished">non mesuré ; utilisez --display</translation>
         </message>
         <message>
             <source>{depths!r} is no range of depths; give for example -30,120</source>
@@ -752,6 +848,18 @@
             <translation type="unfinished">le test demande un vrai écran qu’une caméra puisse voir ; il n’y en a pas</translation>
         </message>
         <message>
+            <source>the driver's</source>
+            <translation type="unfinished">ceux du pilote</translation>
+        </message>
+        <message>
+            <source>of the delivery, less the latency</source>
+            <translation type="unfinished">ceux de la livraison, moins la latence</translation>
+        </message>
+        <message>
+            <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
+            <translation type="unfinished">couleur du marqueur : le rouge habituel (dans le panneau du suivi, Apprendre en prend une autre)</translation>
+        </message>
+        <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
             <translation type="unfinished">indiquez un point : soit --voxel I,J,K, soit --sop UID avec --pixel COL,ROW</translation>
         </message>
@@ -768,8 +876,16 @@
             <translation type="unfinished">--sop UID et --pixel COL,ROW vont ensemble ; donnez les deux</translation>
         </message>
         <message>
+            <source>LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|no HU: padding, nothing was measured there}</source>
+            <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} UH|pas d’UH : remplissage, rien n’y a été mesuré}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r} : trois nombres X,Y,Z en mm</translation>
+        </message>
+        <message>
+            <source>the library is empty; `acus ct import DIR` takes a CT in</source>
+            <translation type="unfinished">la bibliothèque est vide ; `acus ct import DIR` y ajoute un scanner</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -788,16 +904,20 @@
             <translation type="unfinished">{option} {argument!r} n’est pas {form} : {count} nombres entiers, sans espaces</translation>
         </message>
         <message>
+            <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
+            <translation type="unfinished">aucun port série ; branchez le robot ou essayez `acus device emulate`</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">le robot a répondu mais n’envoie pas d’angles articulaires ; voir `acus device test`</translation>
         </message>
         <message>
             <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{level}  {id}  version {version}  {title:~}{shipped:?|  (la vôtre)}</translation>
         </message>
         <message>
             <source>✖ cannot be used: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✖ inutilisable : {reason}</translation>
         </message>
         <message>
             <source>--ct DIR needs --plan FILE: entry and target lie in that CT</source>
@@ -805,27 +925,27 @@
         </message>
         <message>
             <source>✔ {exercise}: {id}, version {version}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ {exercise} : {id}, version {version}</translation>
         </message>
         <message>
             <source># nothing is absent without a reason in {id}, version {version}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished"># rien ne manque sans raison dans {id}, version {version}</translation>
         </message>
         <message>
             <source>  CT {manifest.ct.digest:.12}… is in the file</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  le scanner {manifest.ct.digest:.12}… est dans le fichier</translation>
         </message>
         <message>
             <source>  CT {manifest.ct.digest:.12}… is not in the file</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  le scanner {manifest.ct.digest:.12}… n’est pas dans le fichier</translation>
         </message>
         <message>
             <source>{file}: {manifest.id}, version {manifest.exercise_version}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{file} : {manifest.id}, version {manifest.exercise_version}</translation>
         </message>
         <message>
             <source>{id}, version {version} {known:?was there already|taken in}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id}, version {version}, {known:?était déjà là|ajoutée}</translation>
         </message>
         <message>
             <source>there is no script {script!r}; there are {scripts}</source>
@@ -833,19 +953,23 @@
         </message>
         <message>
             <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # sans score|  # sans score|}</translation>
         </message>
         <message>
             <source>skill        median    quartiles  passed   time</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">niveau       médiane   quartiles  réussite temps</translation>
         </message>
         <message>
             <source>all skills in their order: {ordered_seeds:.0%} of the seeds</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">tous les niveaux dans leur ordre : {ordered_seeds:.0%} des graines</translation>
         </message>
         <message>
             <source>neighbouring skills ordered right, any seed with any: {ordered_share:.0%}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">niveaux voisins bien ordonnés, toute graine avec toute autre : {ordered_share:.0%}</translation>
+        </message>
+        <message>
+            <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
+            <translation type="unfinished">{id}  {plate}  {touched} touchés, {picked} désignés  {rig}  {trusted:?bon|ne convient pas}</translation>
         </message>
         <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
@@ -853,15 +977,15 @@
         </message>
         <message>
             <source>nobody and nothing to show: add students first</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">personne ni rien à montrer : ajoutez d’abord des étudiants</translation>
         </message>
         <message>
             <source>{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{started:@}  {total:5.1f}  meilleur {best:5.1f}  médiane {median:5.1f}</translation>
         </message>
         <message>
             <source>{pseudonym} has no attempt at {exercise} that counts</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} n’a aucun essai de {exercise} qui compte</translation>
         </message>
         <message>
             <source>{form}: the forms are {forms}</source>
@@ -873,23 +997,23 @@
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} de {students:#1 étudiant|# étudiants|0 étudiant} dans {files}</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">meilleur {best:3.0f}, dernier {last:3.0f}, {trend}, {attempts}, il y a {days:.1f} jours</translation>
         </message>
         <message>
             <source>no trend yet</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">pas encore de tendance</translation>
         </message>
         <message>
             <source>{change:+.1f} a time</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{change:+.1f} par essai</translation>
         </message>
         <message>
             <source> ({others} not counted)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished"> ({others} non comptés)</translation>
         </message>
         <message>
             <source>--ct {ct} does not exist; name a folder or file with a CT</source>
@@ -897,75 +1021,75 @@
         </message>
         <message>
             <source>attempts are kept in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">les essais sont conservés dans {folder}</translation>
         </message>
         <message>
             <source>no sessions in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">aucune session dans {folder}</translation>
         </message>
         <message>
             <source>score: {verdict}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">score : {verdict}</translation>
         </message>
         <message>
             <source>signature: {verdict}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">signature : {verdict}</translation>
         </message>
         <message>
             <source>admitted by the instructor: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">admis par le formateur : {reason}</translation>
         </message>
         <message>
             <source>{file} is not sealed by this station: lists read the record</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{file} n’est pas scellé par ce poste : les listes lisent l’enregistrement</translation>
         </message>
         <message>
             <source>the index was altered: {problem}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">l’index a été modifié : {problem}</translation>
         </message>
         <message>
             <source>not comparable: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">non comparable : {reason}</translation>
         </message>
         <message>
             <source>comparable</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">comparable</translation>
         </message>
         <message>
             <source>{id} deleted: `acus session restore {id}` brings it back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} supprimé : `acus session restore {id}` le récupère</translation>
         </message>
         <message>
             <source>{id} is back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} est de retour</translation>
         </message>
         <message>
             <source>{id} was closed as it stands: listed as unfinished</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} a été clos tel quel : listé comme inachevé</translation>
         </message>
         <message>
             <source>{id} has its end: there was nothing to recover, and nothing was changed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id} a sa fin : il n’y avait rien à récupérer, et rien n’a été modifié</translation>
         </message>
         <message>
             <source>{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` keeps it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id}  {student}  {exercise}  {duration:.0f} s : `acus session recover {id}` le conserve</translation>
         </message>
         <message>
             <source>no attempt was cut off in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">aucun essai n’a été interrompu dans {folder}</translation>
         </message>
         <message>
             <source>nothing to do</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">rien à faire</translation>
         </message>
         <message>
             <source>{left:#1 stays|# stay} there, not signed by this station: `acus session list --folder {from}` lists them</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{left:#1 y reste|# y restent}, non signés par ce poste : `acus session list --folder {from}` les liste</translation>
         </message>
         <message>
             <source>{gathered:#1 attempt|# attempts} brought from {from} to {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{gathered:#1 essai apporté|# essais apportés|0 essai apporté} de {from} vers {folder}</translation>
         </message>
         <message>
             <source>--out {out}: only .csv can be written</source>
@@ -973,7 +1097,7 @@
         </message>
         <message>
             <source>{rows:#1 row|# rows} written to {files}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{rows:#1 ligne écrite|# lignes écrites|0 ligne écrite} dans {files}</translation>
         </message>
         <message>
             <source>--trajectory takes exactly one session id</source>
@@ -981,91 +1105,91 @@
         </message>
         <message>
             <source>student</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">étudiant</translation>
         </message>
         <message>
             <source>exercise</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">exercice</translation>
         </message>
         <message>
             <source>state</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">état</translation>
         </message>
         <message>
             <source>duration</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">durée</translation>
         </message>
         <message>
             <source>score</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">score</translation>
         </message>
         <message>
             <source>signature</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">signature</translation>
         </message>
         <message>
             <source>— altered</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">— modifié</translation>
         </message>
         <message>
             <source>{total:.0f} % passed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{total:.0f} % réussi</translation>
         </message>
         <message>
             <source>{total:.0f} %</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{total:.0f} %</translation>
         </message>
         <message>
             <source>no student's attempt: {hands}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">aucun essai d’étudiant : {hands}</translation>
         </message>
         <message>
             <source>± {radius:.1f} mm (95 %), median</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">± {radius:.1f} mm (95 %), médiane</translation>
         </message>
         <message>
             <source>started</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">début</translation>
         </message>
         <message>
             <source>reason</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">raison</translation>
         </message>
         <message>
             <source>{seconds:.1f} s</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{seconds:.1f} s</translation>
         </message>
         <message>
             <source>scans</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">contrôles</translation>
         </message>
         <message>
             <source>file</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">fichier</translation>
         </message>
         <message>
             <source>hand</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">main</translation>
         </message>
         <message>
             <source>whose</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">de qui</translation>
         </message>
         <message>
             <source>calibration</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">étalonnage</translation>
         </message>
         <message>
             <source>tip known to</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">pointe à</translation>
         </message>
         <message>
             <source>published</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">publié</translation>
         </message>
         <message>
             <source>problem</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">problème</translation>
         </message>
         <message>
             <source>study {name} takes no --{option}; leave it out</source>
@@ -1074,6 +1198,10 @@
         <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r} : utilisez {valid}</translation>
+        </message>
+        <message>
+            <source>{files}: from world (robot) to patient (LPS)</source>
+            <translation type="unfinished">{files} : du monde (robot) au patient (LPS)</translation>
         </message>
         <message>
             <source>--origin {origin!r}; valid names: {names}</source>
@@ -2845,7 +2973,7 @@
         </message>
         <message>
             <source>missing, without which its pixels cannot be told: {names}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">il manque ce sans quoi ses pixels ne peuvent être interprétés : {names}</translation>
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>
@@ -4769,19 +4897,19 @@
         </message>
         <message>
             <source>screen and needle: not checked</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">écran et aiguille : non vérifiés</translation>
         </message>
         <message>
             <source>FRE says how well the points fit each other. It is not the accuracy at the target, and a small FRE does not promise one.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">La FRE dit à quel point les points s’accordent entre eux. Ce n’est pas l’exactitude à la cible, et une petite FRE n’en promet aucune.</translation>
         </message>
         <message>
             <source>FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect at the target: it grows with the distance from the fiducials.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">La FLE est l’erreur du toucher d’un point, estimée d’après la FRE. La TRE est l’erreur à attendre à la cible : elle croît avec la distance aux repères.</translation>
         </message>
         <message>
             <source>A shift that all touches share, a wrong tip length for instance, does not show in the FRE.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Un décalage commun à tous les touchers, par exemple une longueur de pointe fausse, ne se voit pas dans la FRE.</translation>
         </message>
         <message>
             <source>screen and needle agree within ± {mm} mm (95 %)</source>
@@ -4789,19 +4917,19 @@
         </message>
         <message>
             <source>touched</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">touchés</translation>
         </message>
         <message>
             <source>picked</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">désignés</translation>
         </message>
         <message>
             <source>touches</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">touchers</translation>
         </message>
         <message>
             <source>picks in the CT</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">points du scanner</translation>
         </message>
         <message>
             <source>TRE at the target: {expected_mm} mm RMS expected, at least 95 % within {within_95_mm} mm ({check_world_condition})</source>
@@ -4837,11 +4965,11 @@
         </message>
         <message>
             <source>long</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">longues</translation>
         </message>
         <message>
             <source>short</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">courtes</translation>
         </message>
         <message>
             <source>{finding}: the CT's spacing is wrong, or this is another plate</source>
@@ -4853,11 +4981,11 @@
         </message>
         <message>
             <source>{mm:.1f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{mm:.1f}</translation>
         </message>
         <message>
             <source>{mm:.2f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{mm:.2f}</translation>
         </message>
         <message>
             <source>one of them has no score</source>
@@ -5429,7 +5557,7 @@
         </message>
         <message>
             <source>Signs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Signes</translation>
         </message>
         <message>
             <source>simulated robot: its signs are known</source>
@@ -5469,11 +5597,11 @@
         </message>
         <message>
             <source>at most {force:g} N</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">au plus {force:g} N</translation>
         </message>
         <message>
             <source>{cameras} of 2 cameras</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{cameras} caméras sur 2</translation>
         </message>
         <message>
             <source>plug both cameras in; menu Cameras</source>
@@ -5485,47 +5613,47 @@
         </message>
         <message>
             <source>check the camera's cable; menu Cameras</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vérifiez le câble de la caméra ; menu Caméras</translation>
         </message>
         <message>
             <source>wait a moment</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">attendez un instant</translation>
         </message>
         <message>
             <source>the picture is dark</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">l’image est sombre</translation>
         </message>
         <message>
             <source>lens cap, light, exposure</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">cache de l’objectif, lumière, exposition</translation>
         </message>
         <message>
             <source>{share:.0f} % of the picture is overexposed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{share:.0f} % de l’image est surexposée</translation>
         </message>
         <message>
             <source>less light, or a shorter exposure</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">moins de lumière, ou une exposition plus courte</translation>
         </message>
         <message>
             <source>{rate:.0f} pictures a second instead of {wanted:.0f}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{rate:.0f} images par seconde au lieu de {wanted:.0f}</translation>
         </message>
         <message>
             <source>own USB port for each camera; lock the exposure</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">un port USB par caméra ; verrouillez l’exposition</translation>
         </message>
         <message>
             <source>the marker's edge is {width:.1f} px wide</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">le bord du marqueur fait {width:.1f} px de large</translation>
         </message>
         <message>
             <source>focus the lens on the needle and lock it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">faites la mise au point sur l’aiguille et verrouillez-la</translation>
         </message>
         <message>
             <source>Marker</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Marqueur</translation>
         </message>
         <message>
             <source>found in both pictures</source>
@@ -5537,7 +5665,7 @@
         </message>
         <message>
             <source>pictures first</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">d’abord les images</translation>
         </message>
         <message>
             <source>only one camera</source>
@@ -5549,7 +5677,7 @@
         </message>
         <message>
             <source>Cameras agree</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Accord des caméras</translation>
         </message>
         <message>
             <source>no point yet</source>
@@ -5561,7 +5689,7 @@
         </message>
         <message>
             <source>residual {residual:.2f} px</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">résidu {residual:.2f} px</translation>
         </message>
         <message>
             <source>a camera was moved, or robot and cameras differ: `acus calibrate world`</source>
@@ -8672,8 +8800,8 @@ Non : le conserver sous un autre nom.</translation>
         <message numerus="yes">
             <source>{n} attempts of each skill, without structures of risk</source>
             <translation type="unfinished">
-                <numerusform>{n} essais par script, sans structures à risque</numerusform>
-                <numerusform />
+                <numerusform>{n} essai de chaque niveau, sans structures à risque</numerusform>
+                <numerusform>{n} essais de chaque niveau, sans structures à risque</numerusform>
             </translation>
         </message>
         <message>
@@ -10060,11 +10188,11 @@ part</translation>
         </message>
         <message>
             <source>checked</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vérifié</translation>
         </message>
         <message>
             <source>checked with remarks</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vérifié, avec des remarques</translation>
         </message>
         <message>
             <source>check failed</source>
@@ -10072,15 +10200,15 @@ part</translation>
         </message>
         <message>
             <source>check not finished</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vérification inachevée</translation>
         </message>
         <message>
             <source>{verdict} today {time}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{verdict} aujourd’hui {time}</translation>
         </message>
         <message>
             <source>{verdict} {date:%Y-%m-%d %H:%M}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{verdict} {date:%Y-%m-%d %H:%M}</translation>
         </message>
         <message>
             <source>not checked</source>
@@ -10345,8 +10473,8 @@ part</translation>
         <message numerus="yes">
             <source>The program ended in the middle of {n} attempts:</source>
             <translation type="unfinished">
-                <numerusform>Le programme s’est arrêté au milieu de {n} essais :</numerusform>
-                <numerusform />
+                <numerusform>Le programme s’est arrêté au milieu de {n} essai :</numerusform>
+                <numerusform>Le programme s’est arrêté au milieu de {n} essais :</numerusform>
             </translation>
         </message>
         <message>
@@ -10420,8 +10548,8 @@ part</translation>
         <message numerus="yes">
             <source>{n} attempts have come; they are in the list (F7).</source>
             <translation type="unfinished">
-                <numerusform>{n} essais sont arrivés ; ils sont dans la liste (F7).</numerusform>
-                <numerusform />
+                <numerusform>{n} essai est arrivé ; il est dans la liste (F7).</numerusform>
+                <numerusform>{n} essais sont arrivés ; ils sont dans la liste (F7).</numerusform>
             </translation>
         </message>
         <message>
@@ -10456,7 +10584,7 @@ part</translation>
             <source>met {n} times here</source>
             <translation type="unfinished">
                 <numerusform>rencontré {n} fois ici</numerusform>
-                <numerusform />
+                <numerusform>rencontré {n} fois ici</numerusform>
             </translation>
         </message>
         <message>
@@ -10712,8 +10840,8 @@ part</translation>
         <message numerus="yes">
             <source>{n} attempts declared void</source>
             <translation type="unfinished">
+                <numerusform>{n} essai déclaré nul</numerusform>
                 <numerusform>{n} essais déclarés nuls</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -10723,15 +10851,15 @@ part</translation>
         <message numerus="yes">
             <source>{n} attempts admitted</source>
             <translation type="unfinished">
+                <numerusform>{n} essai admis</numerusform>
                 <numerusform>{n} essais admis</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message numerus="yes">
             <source>{done}: {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>{done} : {n} essais</numerusform>
-                <numerusform />
+                <numerusform>{done} : {n} essai</numerusform>
+                <numerusform>{done} : {n} essais</numerusform>
             </translation>
         </message>
         <message>
@@ -11275,8 +11403,8 @@ Lettres : directions du patient
         <message numerus="yes">
             <source>{n} points</source>
             <translation type="unfinished">
+                <numerusform>{n} point</numerusform>
                 <numerusform>{n} points</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -11390,8 +11518,8 @@ Lettres : directions du patient
         <message numerus="yes">
             <source>{n} days left</source>
             <translation type="unfinished">
-                <numerusform>jours restants : {n}</numerusform>
-                <numerusform />
+                <numerusform>{n} jour restant</numerusform>
+                <numerusform>{n} jours restants</numerusform>
             </translation>
         </message>
         <message>
@@ -11413,8 +11541,8 @@ Lettres : directions du patient
         <message numerus="yes">
             <source>deleted; can be brought back for {n} days</source>
             <translation type="unfinished">
-                <numerusform>supprimé ; peut être rétabli (jours restants : {n})</numerusform>
-                <numerusform />
+                <numerusform>supprimé ; peut être récupéré pendant {n} jour</numerusform>
+                <numerusform>supprimé ; peut être récupéré pendant {n} jours</numerusform>
             </translation>
         </message>
         <message>
@@ -11435,19 +11563,19 @@ Lettres : directions du patient
         </message>
         <message>
             <source>this computer was too busy: the simulated cameras' pictures came too late; close other programs, then try again</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">cet ordinateur était trop occupé : les images des caméras simulées sont arrivées trop tard ; fermez d’autres programmes, puis réessayez</translation>
         </message>
         <message>
             <source>pictures and report are in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">les images et le compte rendu sont dans {folder}</translation>
         </message>
         <message>
             <source>  void: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  nul : {reason}</translation>
         </message>
         <message>
             <source>{total:.0f} of 100</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{total:.0f} sur 100</translation>
         </message>
         <message>
             <source>void</source>
@@ -11455,11 +11583,11 @@ Lettres : directions du patient
         </message>
         <message>
             <source>not passed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">non réussi</translation>
         </message>
         <message>
             <source>session: {record} (`acus session show`, `replay`: by this path)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">session : {record} (`acus session show`, `replay` : par ce chemin)</translation>
         </message>
         <message>
             <source>held</source>
@@ -11772,15 +11900,15 @@ Lettres : directions du patient
         <message numerus="yes">
             <source>{n} attempts are allowed.</source>
             <translation type="unfinished">
-                <numerusform>{n} essais sont permis.</numerusform>
-                <numerusform />
+                <numerusform>{n} essai est autorisé.</numerusform>
+                <numerusform>{n} essais sont autorisés.</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{left} of {n} attempts are left.</source>
             <translation type="unfinished">
-                <numerusform>Essais restants : {left} sur {n}.</numerusform>
-                <numerusform />
+                <numerusform>Il reste {left} essai sur {n}.</numerusform>
+                <numerusform>Il reste {left} essais sur {n}.</numerusform>
             </translation>
         </message>
         <message>
@@ -14085,27 +14213,27 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>no students yet: `acus people add` or `acus people roster`</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">pas encore d’étudiants : `acus people add` ou `acus people roster`</translation>
         </message>
         <message>
             <source>{pseudonym} was added; PIN {pin}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} a été ajouté ; code PIN {pin}</translation>
         </message>
         <message>
             <source>nothing was taken</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">rien n’a été pris</translation>
         </message>
         <message>
             <source>{added:#1 student|# students} added, {updated:#} updated</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{added:#1 étudiant ajouté|# étudiants ajoutés|0 étudiant ajouté}, {updated:#} mis à jour</translation>
         </message>
         <message>
             <source>{pseudonym} has a new PIN</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} a un nouveau code PIN</translation>
         </message>
         <message>
             <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{pseudonym} a été effacé ; enregistrements supprimés : {records}, conservés sans propriétaire : {anonymous}</translation>
         </message>
         <message>
             <source>Recovery key</source>
@@ -14113,55 +14241,55 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>the password was changed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">le mot de passe a été changé</translation>
         </message>
         <message>
             <source>Password now</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Mot de passe actuel</translation>
         </message>
         <message>
             <source>the recovery key that was printed before is worth nothing any more</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">la clé de récupération imprimée auparavant ne vaut plus rien</translation>
         </message>
         <message>
             <source>recovery key: {key}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">clé de récupération : {key}</translation>
         </message>
         <message>
             <source>Print it and lock it away: it sets a new password, and opens the station's key in a backup. It is kept nowhere.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Imprimez-la et mettez-la sous clé : elle définit un nouveau mot de passe et ouvre la clé du poste dans une sauvegarde. Elle n’est conservée nulle part.</translation>
         </message>
         <message>
             <source>{id:24} {title}: {items:#1 exercise|# exercises}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{id:24} {title} : {items:#1 exercice|# exercices|0 exercice}</translation>
         </message>
         <message>
             <source>no courses in {folder}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">aucun cours dans {folder}</translation>
         </message>
         <message>
             <source>{title} ({groups})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{title} ({groups})</translation>
         </message>
         <message>
             <source>, from {date}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">, à partir du {date}</translation>
         </message>
         <message>
             <source>, until {date}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">, jusqu’au {date}</translation>
         </message>
         <message>
             <source>  {exercise} (version {version}): {purpose}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  {exercise} (version {version}) : {purpose}</translation>
         </message>
         <message>
             <source>{title} was not saved: correct these, or import the exercises first</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{title} n’a pas été enregistré : corrigez ceci, ou importez d’abord les exercices</translation>
         </message>
         <message>
             <source>{title} saved: {path}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{title} enregistré : {path}</translation>
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -14222,8 +14350,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message numerus="yes">
             <source>{n} students added, {m} updated</source>
             <translation type="unfinished">
-                <numerusform>Étudiants ajoutés : {n}, mis à jour : {m}</numerusform>
-                <numerusform />
+                <numerusform>{n} étudiant ajouté, {m} mis à jour</numerusform>
+                <numerusform>{n} étudiants ajoutés, {m} mis à jour</numerusform>
             </translation>
         </message>
         <message>
@@ -14273,8 +14401,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message numerus="yes">
             <source>Release {n} results of {title}?</source>
             <translation type="unfinished">
-                <numerusform>Publier {n} résultats de {title} ?</numerusform>
-                <numerusform />
+                <numerusform>Publier {n} résultat de {title} ?</numerusform>
+                <numerusform>Publier {n} résultats de {title} ?</numerusform>
             </translation>
         </message>
         <message>
@@ -14292,8 +14420,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message numerus="yes">
             <source>{n} results released</source>
             <translation type="unfinished">
+                <numerusform>{n} résultat publié</numerusform>
                 <numerusform>{n} résultats publiés</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -14363,8 +14491,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message numerus="yes">
             <source>{n} attempts count</source>
             <translation type="unfinished">
+                <numerusform>{n} essai compte</numerusform>
                 <numerusform>{n} essais comptent</numerusform>
-                <numerusform />
             </translation>
         </message>
         <message>
@@ -14526,8 +14654,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message numerus="yes">
             <source>{n} results wait for their release</source>
             <translation type="unfinished">
-                <numerusform>Résultats en attente de publication : {n}</numerusform>
-                <numerusform />
+                <numerusform>{n} résultat attend sa publication</numerusform>
+                <numerusform>{n} résultats attendent leur publication</numerusform>
             </translation>
         </message>
         <message>
@@ -14704,7 +14832,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{students}, {exercises}, {attempts} : notés, comparables, par une personne, non déclarés nuls.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -16151,6 +16279,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>The libraries cannot be listed: {error}</source>
             <translation type="unfinished">Impossible de lister les bibliothèques : {error}</translation>
+        </message>
+        <message>
+            <source>This language was translated, and not reviewed by native radiologists.</source>
+            <translation type="unfinished">Cette langue a été traduite, mais n’a pas été relue par des radiologues francophones.</translation>
         </message>
         <message>
             <source>Acus is under the Apache License 2.0 (LICENSE, NOTICE).</source>
@@ -17967,134 +18099,134 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message numerus="yes">
             <source>, {n} attempts</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>, {n} essai</numerusform>
+                <numerusform>, {n} essais</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>aucune série DICOM dans {listing_path} : {n} fichier ignoré ({first_path_name} : {first_reason})</numerusform>
+                <numerusform>aucune série DICOM dans {listing_path} : {n} fichiers ignorés ({first_path_name} : {first_reason})</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>pick {n} more beads in the CT, or none</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>désignez encore {n} bille dans le scanner, ou aucune</numerusform>
+                <numerusform>désignez encore {n} billes dans le scanner, ou aucune</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>the names of the pictures speak of {n} cameras; two are needed, e.g. left01.png and right01.png</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>les noms des images parlent de {n} caméra ; il en faut deux, p. ex. left01.png et right01.png</numerusform>
+                <numerusform>les noms des images parlent de {n} caméras ; il en faut deux, p. ex. left01.png et right01.png</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>touch {n} more fiducials</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>touchez encore {n} repère</numerusform>
+                <numerusform>touchez encore {n} repères</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{name}: {n} contours {reason} left out</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{name} : {n} contour {reason} écarté</numerusform>
+                <numerusform>{name} : {n} contours {reason} écartés</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} essai</numerusform>
+                <numerusform>{n} essais</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} essai se trouve dans {folder}, où d’anciennes versions conservaient les essais : `acus session gather` apporte les vôtres ici, `acus session list --folder {folder}` les liste tous</numerusform>
+                <numerusform>{n} essais se trouvent dans {folder}, où d’anciennes versions conservaient les essais : `acus session gather` apporte les vôtres ici, `acus session list --folder {folder}` les liste tous</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} essai d’étudiant est réservé au formateur : {variable} contient le mot de passe</numerusform>
+                <numerusform>{n} essais d’étudiants sont réservés au formateur : {variable} contient le mot de passe</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts that count</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} essai qui compte</numerusform>
+                <numerusform>{n} essais qui comptent</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} contours that are in the file twice counted once</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} contour présent deux fois dans le fichier, compté une fois</numerusform>
+                <numerusform>{n} contours présents deux fois dans le fichier, comptés une fois</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} exercises</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} exercice</numerusform>
+                <numerusform>{n} exercices</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} files hold bytes behind the pixels, which are left out</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} fichier contient, derrière les pixels, des octets qui sont écartés</numerusform>
+                <numerusform>{n} fichiers contiennent, derrière les pixels, des octets qui sont écartés</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} gaps of missing slices left empty</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} lacune de coupes manquantes laissée vide</numerusform>
+                <numerusform>{n} lacunes de coupes manquantes laissées vides</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} région {reason} écartée : le fichier ne dit pas ce qu’elle est</numerusform>
+                <numerusform>{n} régions {reason} écartées : le fichier ne dit pas ce qu’elles sont</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} series, none of which can be used as it is</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} série, inutilisable telle quelle</numerusform>
+                <numerusform>{n} séries, dont aucune n’est utilisable telle quelle</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} series, {usable} of which can be used</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} série, dont {usable} utilisable</numerusform>
+                <numerusform>{n} séries, dont {usable} utilisables</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} students</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} étudiant</numerusform>
+                <numerusform>{n} étudiants</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>{n} {name} points: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
             <translation type="unfinished">
-                <numerusform />
-                <numerusform />
+                <numerusform>{n} point « {name} » : un recalage en demande au moins {fewest}, et {fewest_to_check} pour trouver celui qui est faux</numerusform>
+                <numerusform>{n} points « {name} » : un recalage en demande au moins {fewest}, et {fewest_to_check} pour trouver celui qui est faux</numerusform>
             </translation>
         </message>
         <message>
@@ -18275,138 +18407,225 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>the output could not be written: {reason}; free some space there</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">la sortie n’a pas pu être écrite : {reason} ; libérez de la place</translation>
         </message>
         <message>
             <source>a question was not answered; nothing was done</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">une question est restée sans réponse ; rien n’a été fait</translation>
         </message>
         <message>
             <source>Invalid value: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Valeur non valable : {reason}</translation>
         </message>
         <message>
             <source>no daily check was made yet</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">aucune vérification quotidienne n’a encore été faite</translation>
         </message>
         <message>
             <source>Rest the tip in {name} and hold still; press Enter</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Posez la pointe dans {name} et ne bougez plus ; appuyez sur Entrée</translation>
         </message>
         <message>
             <source>Instructor's password</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Mot de passe du formateur</translation>
         </message>
         <message>
             <source>compiling for the first time, up to a minute …</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">première compilation, jusqu’à une minute…</translation>
         </message>
         <message>
             <source>{exercise} on the simulated device {device}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{exercise} sur l’appareil simulé {device}</translation>
         </message>
         <message>
             <source>{exercise} on the real device {device}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{exercise} sur l’appareil réel {device}</translation>
         </message>
         <message>
             <source>{energy:.1f} mJ</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{energy:.1f} mJ</translation>
         </message>
         <message>
             <source>energy</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">énergie</translation>
         </message>
         <message>
             <source>bound</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">limite</translation>
         </message>
         <message>
             <source>cost</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">coût</translation>
         </message>
         <message>
             <source>model</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">modèle</translation>
         </message>
         <message>
             <source>why</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">raison</translation>
         </message>
         <message>
             <source>note</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">note</translation>
         </message>
         <message>
             <source>  no effects</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  aucun effet</translation>
         </message>
         <message>
             <source>
   touches {targets} targets, each for {dwell:g} s within {radius:g} mm; the hand moves the tool's handle</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">
+  touche {targets} cibles, chacune pendant {dwell:g} s à {radius:g} mm près ; la main déplace la poignée de l’instrument</translation>
         </message>
         <message>
             <source>    {target}  at ({place}) mm LPS, {depth:.0f} mm deep: 1 mm of hand moves the tip {scale:.2f} mm the other way</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">    {target}  à ({place}) mm LPS, profondeur {depth:.0f} mm : 1 mm de la main déplace la pointe de {scale:.2f} mm en sens inverse</translation>
         </message>
         <message>
             <source>
   {metric} passes to {limit:g}: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">
+  {metric} réussit jusqu’à {limit:g} : {reason}</translation>
         </message>
         <message>
             <source>
   refused {kind}: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">
+  refusé {kind} : {reason}</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  le patient demande</translation>
         </message>
         <message>
             <source>      left out: {reason}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">      laissé de côté : {reason}</translation>
         </message>
         <message>
             <source>      absent</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">      absent</translation>
         </message>
         <message>
             <source>      absent, {cost}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">      absent, {cost}</translation>
         </message>
         <message>
             <source>  add it: `acus exercise suggest {name}`</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">  à ajouter : `acus exercise suggest {name}`</translation>
         </message>
         <message>
             <source>{time:.2f} ms for each picture of a camera, nothing of a tick</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{time:.2f} ms pour chaque image d’une caméra, rien d’un tic</translation>
         </message>
         <message>
             <source>{time:.0f} ns per tick, {share:.4f} % of 1 ms</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{time:.0f} ns par tic, {share:.4f} % de 1 ms</translation>
         </message>
         <message>
             <source>{items}, {item}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{items}, {item}</translation>
         </message>
         <message>
             <source>{items} and {last}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{items} et {last}</translation>
         </message>
         <message>
             <source>0.5</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">0,5</translation>
         </message>
         <message>
             <source>%Y-%m-%d %H:%M</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">%d/%m/%Y %H:%M</translation>
         </message>
         <message>
             <source>%Y-%m-%d</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">%d/%m/%Y</translation>
+        </message>
+        <message>
+            <source>{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}{trial_states:? (tried with {trial_states} states in {trial_s} s)}}</source>
+            <translation type="unfinished">{refused:?✖|✔} {law} : {refused:?refusé : {refused}|{title}{trial_states:? (essayé avec {trial_states} états en {trial_s} s)}}</translation>
+        </message>
+        <message>
+            <source>nothing matches</source>
+            <translation type="unfinished">rien ne correspond</translation>
+        </message>
+        <message>
+            <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
+            <translation type="unfinished">imprimez à 100 %, vérifiez la ligne de 100 mm, découpez, pliez, collez (docs/pen.md)</translation>
+        </message>
+        <message>
+            <source>tip measured</source>
+            <translation type="unfinished">pointe mesurée</translation>
+        </message>
+        <message>
+            <source>tip by the drawing: `acus pen calibrate`</source>
+            <translation type="unfinished">pointe selon le dessin : `acus pen calibrate`</translation>
+        </message>
+        <message>
+            <source>stand the tip in a dimple on the sheet and rock the pen to every side …</source>
+            <translation type="unfinished">posez la pointe dans un creux sur la feuille et balancez le stylo de tous les côtés…</translation>
+        </message>
+        <message>
+            <source>now lay the pen into a groove and roll it about itself by a quarter turn or more …</source>
+            <translation type="unfinished">posez maintenant le stylo dans une rainure et roulez-le sur lui-même d’un quart de tour ou plus…</translation>
+        </message>
+        <message>
+            <source>no files of your own yet; save them in these folders (make what is missing):</source>
+            <translation type="unfinished">pas encore de fichiers à vous ; enregistrez-les dans ces dossiers (créez ce qui manque) :</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts in {folder}, {deleted} deleted</source>
+            <translation type="unfinished">{attempts} essais dans {folder}, {deleted} supprimés</translation>
+        </message>
+        <message>
+            <source>index: {index:?{index}|in memory, the folder can only be read}</source>
+            <translation type="unfinished">index : {index:?{index}|en mémoire, le dossier est en lecture seule}</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts indexed, {gone} of the old index are gone</source>
+            <translation type="unfinished">{attempts} essais indexés, {gone} de l’ancien index ont disparu</translation>
+        </message>
+        <message>
+            <source>the station's key in it was sealed by an earlier build, and nothing opens it any more: change the password (`acus people instructor`), which prints a new recovery key, and make the backup again</source>
+            <translation type="unfinished">la clé du poste qu’elle contient a été scellée par une version antérieure, et plus rien ne l’ouvre : changez le mot de passe (`acus people instructor`), ce qui imprime une nouvelle clé de récupération, et refaites la sauvegarde</translation>
+        </message>
+        <message>
+            <source>without the station's key: set a password first (`acus people instructor`) if its records are to be verified on another computer</source>
+            <translation type="unfinished">sans la clé du poste : définissez d’abord un mot de passe (`acus people instructor`) si ses enregistrements doivent être vérifiés sur un autre ordinateur</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} written to {files}</source>
+            <translation type="unfinished">{records:#1 enregistrement écrit|# enregistrements écrits|0 enregistrement écrit} dans {files}</translation>
+        </message>
+        <message>
+            <source>not in it: {}</source>
+            <translation type="unfinished">n’y est pas : {}</translation>
+        </message>
+        <message>
+            <source>{records} records restored, {kept} were here already</source>
+            <translation type="unfinished">{records} enregistrements restaurés, {kept} étaient déjà ici</translation>
+        </message>
+        <message>
+            <source>✖ {} is another record here: the one here was kept</source>
+            <translation type="unfinished">✖ {} est ici un autre enregistrement : celui d’ici a été conservé</translation>
+        </message>
+        <message>
+            <source>{erased} records left out: their person was erased</source>
+            <translation type="unfinished">{erased} enregistrements écartés : leur personne a été effacée</translation>
+        </message>
+        <message>
+            <source>✖ not taken: {}</source>
+            <translation type="unfinished">✖ non pris : {}</translation>
+        </message>
+        <message>
+            <source>{deleted:#1 attempt|# attempts} deleted for good</source>
+            <translation type="unfinished">{deleted:#1 essai supprimé|# essais supprimés|0 essai supprimé} définitivement</translation>
+        </message>
+        <message>
+            <source>never warns</source>
+            <translation type="unfinished">n’avertit jamais</translation>
         </message>
     </context>
 </TS>

@@ -126,6 +126,12 @@ class DebriefController(QObject):
         """Show an attempt that has just finished."""
         self._read(lambda: review_of_result(result))
 
+    def go_on(self, other: DebriefController) -> None:
+        """Show the attempt that another window's debrief shows, if it shows one."""
+        shown, self.exercise = other._shown, other.exercise
+        if shown is not None:
+            self._read(lambda: shown)
+
     def open_session(self, session_id: str) -> None:
         """Show a recorded session."""
         self._read(lambda: review(open_recording(find(self._folder, session_id))))
@@ -927,6 +933,14 @@ class DebriefFeature(Feature):
         """Go to the attempt that the debrief shows; the keyboard replays it."""
         self.context.shell.show_page(self.page)
         self.page.bar.slider.setFocus()
+
+    def go_on(self, other: DebriefFeature, page: QWidget | None) -> None:
+        """Show what another window showed on `page`, where that is one of this feature's."""
+        if page is other.page:
+            self._controller.go_on(other._controller)
+            self.show()
+        elif page is other.sessions:
+            self.show_sessions()
 
     def show_sessions(self) -> None:
         """Go to the past attempts."""

@@ -27,7 +27,7 @@ from app.session.people import NOTHING_SAID, People, Remarks
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import label
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import literal, tr, tr_n
+from app.views.kit.text import keys_text, literal, tr, tr_n
 
 
 def said_words(answer: Remarks, held: str = "") -> list[str]:
@@ -216,7 +216,7 @@ class RemarkActions(QObject):
     # --- inside -----------------------------------------------------------------------------------
     def _add(self, text: str, keys: str, tip: str) -> QAction:
         """Make an action whose keys are this page's: another page has actions of the same."""
-        action = QAction(f"{text}\t{keys}" if keys else text, self._page)
+        action = QAction(f"{text}\t{keys_text(keys)}" if keys else text, self._page)
         if keys:
             shortcut = QShortcut(QKeySequence(keys), self._page, lambda: self._press(action))
             shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)

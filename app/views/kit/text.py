@@ -1,5 +1,6 @@
 """Every string the user sees passes through here to Qt's translation."""
 
+import re
 from collections.abc import Iterable
 from datetime import date, datetime
 from html import escape
@@ -69,6 +70,11 @@ def begin_language(english: bool) -> None:
     _TEXTS.begin(english)
 
 
+def in_english() -> bool:
+    """Return whether the texts are those of the source."""
+    return _TEXTS.is_english
+
+
 def number(value: float, form: str) -> str:
     """Return a number by a format such as `.1f`, with the language's own decimal point."""
     return _TEXTS.number(value, form)
@@ -95,6 +101,19 @@ def listing(parts: Iterable[str]) -> str:
 def day(when: date) -> str:
     """Return a date as the user's language writes it."""
     return _TEXTS.day(when)
+
+
+_KEYS = re.compile(
+    r"\b(Ctrl|Shift|Alt|Esc|Return|Enter|Space|Backspace|Del|Home|End|PgUp|PgDown)\b"
+)
+
+
+def keys_text(keys: str) -> str:
+    """Return keys as the keyboards of the user's language name them: `Ctrl+B` is `Strg+B`.
+
+    Qt has the names among its own translations.
+    """
+    return _KEYS.sub(lambda key: QCoreApplication.translate("QShortcut", key[0]), keys)
 
 
 def literal(text: str) -> str:
