@@ -186,8 +186,8 @@ def board_(
     shown = (
         template("{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}"),
         template(
-            "{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or one "
-            "with an odd and an even count of corners, does not}"
+            "{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or "
+            "one with an odd and an even count of corners, does not}"
         ),
         sentence("print at 100 %, not fitted to the page, and measure the line of 100 mm"),
     )

@@ -953,7 +953,7 @@
         </message>
         <message>
             <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
-            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # ohne Punkte|  # ohne Punkte|}</translation>
+            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # ohne Bewertung|  # ohne Bewertung|}</translation>
         </message>
         <message>
             <source>skill        median    quartiles  passed   time</source>
@@ -977,7 +977,7 @@
         </message>
         <message>
             <source>nobody and nothing to show: add students first</source>
-            <translation type="unfinished">niemand und nichts zu zeigen: fügen Sie zuerst Studierende hinzu</translation>
+            <translation type="unfinished">niemand und nichts zu zeigen: fügen Sie zuerst Teilnehmer hinzu</translation>
         </message>
         <message>
             <source>{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}</source>
@@ -997,7 +997,7 @@
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
-            <translation type="unfinished">{attempts:#1 Versuch|# Versuche} von {students:#1 Person|# Personen} in {files} geschrieben</translation>
+            <translation type="unfinished">{attempts:#1 Versuch|# Versuche} von {students:#1 Teilnehmer|# Teilnehmern} in {files} geschrieben</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
@@ -1029,7 +1029,7 @@
         </message>
         <message>
             <source>score: {verdict}</source>
-            <translation type="unfinished">Punkte: {verdict}</translation>
+            <translation type="unfinished">Bewertung: {verdict}</translation>
         </message>
         <message>
             <source>signature: {verdict}</source>
@@ -1037,7 +1037,7 @@
         </message>
         <message>
             <source>admitted by the instructor: {reason}</source>
-            <translation type="unfinished">von der Kursleitung zugelassen: {reason}</translation>
+            <translation type="unfinished">vom Kursleiter zugelassen: {reason}</translation>
         </message>
         <message>
             <source>{file} is not sealed by this station: lists read the record</source>
@@ -1105,7 +1105,7 @@
         </message>
         <message>
             <source>student</source>
-            <translation type="unfinished">Person</translation>
+            <translation type="unfinished">Teilnehmer</translation>
         </message>
         <message>
             <source>exercise</source>
@@ -1121,7 +1121,7 @@
         </message>
         <message>
             <source>score</source>
-            <translation type="unfinished">Punkte</translation>
+            <translation type="unfinished">Bewertung</translation>
         </message>
         <message>
             <source>signature</source>
@@ -1141,7 +1141,7 @@
         </message>
         <message>
             <source>no student's attempt: {hands}</source>
-            <translation type="unfinished">kein Versuch einer Person: {hands}</translation>
+            <translation type="unfinished">kein Versuch eines Teilnehmers: {hands}</translation>
         </message>
         <message>
             <source>± {radius:.1f} mm (95 %), median</source>
@@ -4905,7 +4905,7 @@
         </message>
         <message>
             <source>FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect at the target: it grows with the distance from the fiducials.</source>
-            <translation type="unfinished">Der FLE ist der Fehler beim Berühren eines Punkts, aus dem FRE geschätzt. Der TRE ist der am Ziel zu erwartende Fehler: Er wächst mit dem Abstand von den Passmarken.</translation>
+            <translation type="unfinished">Der FLE ist der Fehler beim Berühren eines Punkts, aus dem FRE geschätzt. Der TRE ist der am Ziel zu erwartende Fehler: Er wächst mit dem Abstand von den Referenzmarken.</translation>
         </message>
         <message>
             <source>A shift that all touches share, a wrong tip length for instance, does not show in the FRE.</source>
@@ -10200,7 +10200,7 @@ Anteil</translation>
         </message>
         <message>
             <source>check not finished</source>
-            <translation type="unfinished">Prüfung nicht beendet</translation>
+            <translation type="unfinished">Kontrolle nicht beendet</translation>
         </message>
         <message>
             <source>{verdict} today {time}</source>
@@ -14213,7 +14213,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>no students yet: `acus people add` or `acus people roster`</source>
-            <translation type="unfinished">noch keine Studierenden: `acus people add` oder `acus people roster`</translation>
+            <translation type="unfinished">noch keine Teilnehmer: `acus people add` oder `acus people roster`</translation>
         </message>
         <message>
             <source>{pseudonym} was added; PIN {pin}</source>
@@ -14225,7 +14225,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{added:#1 student|# students} added, {updated:#} updated</source>
-            <translation type="unfinished">{added:#1 Person|# Personen} hinzugefügt, {updated:#} geändert</translation>
+            <translation type="unfinished">{added:#1 Teilnehmer|# Teilnehmer} hinzugefügt, {updated:#} geändert</translation>
         </message>
         <message>
             <source>{pseudonym} has a new PIN</source>
@@ -14350,8 +14350,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>{n} students added, {m} updated</source>
             <translation type="unfinished">
-                <numerusform>{n} Person hinzugefügt, {m} geändert</numerusform>
-                <numerusform>{n} Personen hinzugefügt, {m} geändert</numerusform>
+                <numerusform>{n} Teilnehmer hinzugefügt, {m} geändert</numerusform>
+                <numerusform>{n} Teilnehmer hinzugefügt, {m} geändert</numerusform>
             </translation>
         </message>
         <message>
@@ -18127,8 +18127,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>touch {n} more fiducials</source>
             <translation type="unfinished">
-                <numerusform>berühren Sie noch {n} Passmarke</numerusform>
-                <numerusform>berühren Sie noch {n} Passmarken</numerusform>
+                <numerusform>berühren Sie noch {n} Referenzmarke</numerusform>
+                <numerusform>berühren Sie noch {n} Referenzmarken</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18155,8 +18155,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
             <translation type="unfinished">
-                <numerusform>{n} Versuch einer Person ist für die Kursleitung: {variable} enthält das Passwort</numerusform>
-                <numerusform>{n} Versuche von Studierenden sind für die Kursleitung: {variable} enthält das Passwort</numerusform>
+                <numerusform>{n} Versuch eines Teilnehmers ist für den Kursleiter: {variable} enthält das Passwort</numerusform>
+                <numerusform>{n} Versuche von Teilnehmer sind für den Kursleiter: {variable} enthält das Passwort</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18218,8 +18218,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>{n} students</source>
             <translation type="unfinished">
-                <numerusform>{n} Person</numerusform>
-                <numerusform>{n} Personen</numerusform>
+                <numerusform>{n} Teilnehmer</numerusform>
+                <numerusform>{n} Teilnehmer</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18419,7 +18419,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>no daily check was made yet</source>
-            <translation type="unfinished">noch keine tägliche Prüfung wurde gemacht</translation>
+            <translation type="unfinished">noch keine Tageskontrolle wurde gemacht</translation>
         </message>
         <message>
             <source>Rest the tip in {name} and hold still; press Enter</source>
@@ -18427,7 +18427,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Instructor's password</source>
-            <translation type="unfinished">Passwort der Kursleitung</translation>
+            <translation type="unfinished">Passwort des Kursleiters</translation>
         </message>
         <message>
             <source>compiling for the first time, up to a minute …</source>

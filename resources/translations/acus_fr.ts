@@ -953,7 +953,7 @@
         </message>
         <message>
             <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
-            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # sans score|  # sans score|}</translation>
+            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # sans note|  # sans note|}</translation>
         </message>
         <message>
             <source>skill        median    quartiles  passed   time</source>
@@ -1029,7 +1029,7 @@
         </message>
         <message>
             <source>score: {verdict}</source>
-            <translation type="unfinished">score : {verdict}</translation>
+            <translation type="unfinished">note : {verdict}</translation>
         </message>
         <message>
             <source>signature: {verdict}</source>
@@ -1121,7 +1121,7 @@
         </message>
         <message>
             <source>score</source>
-            <translation type="unfinished">score</translation>
+            <translation type="unfinished">note</translation>
         </message>
         <message>
             <source>signature</source>
@@ -18419,7 +18419,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>no daily check was made yet</source>
-            <translation type="unfinished">aucune vérification quotidienne n’a encore été faite</translation>
+            <translation type="unfinished">aucune vérification du jour n’a encore été faite</translation>
         </message>
         <message>
             <source>Rest the tip in {name} and hold still; press Enter</source>
@@ -18517,11 +18517,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{time:.2f} ms for each picture of a camera, nothing of a tick</source>
-            <translation type="unfinished">{time:.2f} ms pour chaque image d’une caméra, rien d’un tic</translation>
+            <translation type="unfinished">{time:.2f} ms pour chaque image d’une caméra, rien d’un cycle</translation>
         </message>
         <message>
             <source>{time:.0f} ns per tick, {share:.4f} % of 1 ms</source>
-            <translation type="unfinished">{time:.0f} ns par tic, {share:.4f} % de 1 ms</translation>
+            <translation type="unfinished">{time:.0f} ns par cycle, {share:.4f} % de 1 ms</translation>
         </message>
         <message>
             <source>{items}, {item}</source>

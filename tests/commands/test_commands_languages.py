@@ -29,7 +29,7 @@ def answered(monkeypatch, capsys):
 @pytest.mark.parametrize(
     ("locale", "line"),
     [
-        ("de_DE.UTF-8", "noch keine Studierenden: `acus people add` oder `acus people roster`\n"),
+        ("de_DE.UTF-8", "noch keine Teilnehmer: `acus people add` oder `acus people roster`\n"),
         ("fr_CA.UTF-8", "pas encore d’étudiants : `acus people add` ou `acus people roster`\n"),
         ("en_GB.UTF-8", "no students yet: `acus people add` or `acus people roster`\n"),
         ("xx_XX.UTF-8", "no students yet: `acus people add` or `acus people roster`\n"),
@@ -107,7 +107,7 @@ def test_sentences_within_sentences_counts_and_lists_are_the_reader_s():
     assert (none, german.translated(none)) == ("0 attempts", "0 Versuche")
     assert french.translated(none) == "0 essai"  # nothing and one have the same form
     names = listed(["a", "b", sentence("student")])
-    assert (names, german.translated(names)) == ("a, b and student", "a, b und Person")
+    assert (names, german.translated(names)) == ("a, b and student", "a, b und Teilnehmer")
     assert (listed([]), listed(["a"])) == ("", "a")
 
 
