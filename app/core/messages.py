@@ -106,7 +106,7 @@ def listed(parts: Iterable[str]) -> str:
         return last
     items = most[0]
     for item in most[1:]:
-        items = sentence("{items}, {item}", items=items, item=item)
+        items = sentence("{items}, {next}", items=items, next=item)
     return sentence("{items} and {last}", items=items, last=last)
 
 

@@ -3,7 +3,7 @@
 Where the translations come from is told by whoever makes `Texts`: Qt for the window, a file of
 `core.language` for the command line. What a language writes otherwise than English stands among
 its translations: of `0.5` (the decimal point), `%Y-%m-%d %H:%M` and `%Y-%m-%d` (dates, as of
-`strftime`), `{items}, {item}` and `{items} and {last}` (`core.messages.listed`).
+`strftime`), `{items}, {next}` and `{items} and {last}` (`core.messages.listed`).
 """
 
 from __future__ import annotations

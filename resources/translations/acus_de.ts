@@ -15012,7 +15012,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Map entries for this target</source>
-            <translation type="unfinished">Einstichpunkte für dieses Ziel kartieren</translation>
+            <translation type="unfinished">Einstichpunkte kartieren</translation>
         </message>
         <message>
             <source>Clear</source>
@@ -15498,7 +15498,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Speed governor</source>
-            <translation type="unfinished">Geschwindigkeitsbegrenzer</translation>
+            <translation type="unfinished">Tempobegrenzer</translation>
         </message>
         <message>
             <source>Weakens the force when the needle moves faster than a hand would move it, and ends it when the needle has been let go.</source>
@@ -18524,8 +18524,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{time:.0f} ns je Takt, {share:.4f} % von 1 ms</translation>
         </message>
         <message>
-            <source>{items}, {item}</source>
-            <translation type="unfinished">{items}, {item}</translation>
+            <source>{items}, {next}</source>
+            <translation type="unfinished">{items}, {next}</translation>
         </message>
         <message>
             <source>{items} and {last}</source>

@@ -18524,8 +18524,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{time:.0f} ns par cycle, {share:.4f} % de 1 ms</translation>
         </message>
         <message>
-            <source>{items}, {item}</source>
-            <translation type="unfinished">{items}, {item}</translation>
+            <source>{items}, {next}</source>
+            <translation type="unfinished">{items}, {next}</translation>
         </message>
         <message>
             <source>{items} and {last}</source>

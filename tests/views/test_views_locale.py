@@ -7,14 +7,17 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QDate, QDateTime, QLocale, QTime
+from PySide6.QtGui import QFont, QFontMetrics
 
 from app.core import language as core_language
 from app.planning.registration import words as registration_words
 from app.session.checks.facts import CameraFacts
 from app.session.checks.steps import CheckVerdict, _picture
-from app.views.kit import text
+from app.views.kit import text, theme
 from app.views.kit.language import use_language
 from app.views.kit.roles import Role
+from app.views.plan.paths import PathsPanel
+from app.views.robot.health_panel import TITLE_WIDTH, _Line
 from app.views.shell.help import unreviewed
 from app.views.shell.shortcuts import ROLE_KEY, groups
 from app.views.slices.bindings import SCHEMES
@@ -100,3 +103,22 @@ def test_no_text_is_fixed_in_the_language_in_which_a_module_was_imported():
     for path in (ROOT / "app").rglob("*.py"):
         look(ast.parse(path.read_text(encoding="utf-8")), path)
     assert fixed == []
+
+
+ROOM_PX = 354
+"""Beside the pictures at 1366 pixels a side panel has this much between its margins."""
+
+
+def test_panels_of_plan_and_robot_have_room_for_their_words(spoken, application):
+    paths, line = PathsPanel(), _Line(None)
+    assert paths.minimumSizeHint().width() <= ROOM_PX
+    font = QFont(line.font())
+    font.setPixelSize(theme.SMALL_PX)
+    metrics = QFontMetrics(font)
+    titles = [text.tr("Speed governor"), text.tr("Passivity guard")]
+    words = [f"✔ {title}".split(" ") for title in titles]
+    longest = max((word for each in words for word in each), key=metrics.horizontalAdvance)
+    assert metrics.horizontalAdvance(longest) <= theme.px(TITLE_WIDTH)
+    assert line._title.wordWrap()
+    paths.deleteLater()
+    line.deleteLater()

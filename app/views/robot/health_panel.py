@@ -117,7 +117,7 @@ class Trace(QWidget):
 PERIOD = 0.25
 """Words are refreshed this often [s]; curves at every poll."""
 
-TITLE_WIDTH = 134
+TITLE_WIDTH = 144
 
 
 class HealthPanel(QWidget):
@@ -284,7 +284,7 @@ class _Line(QWidget):
         self._title, self._text, self._help = PlainLabel(self), PlainLabel(self), PlainLabel(self)
         self._title.setFixedWidth(theme.px(TITLE_WIDTH))
         self._title.setAlignment(Qt.AlignmentFlag.AlignTop)
-        for label in (self._text, self._help):
+        for label in (self._title, self._text, self._help):
             label.setWordWrap(True)
         self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._help.setProperty("role", "dim")
