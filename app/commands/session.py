@@ -10,7 +10,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import PASSWORD, instructor, see
-from app.commands.tongue import cell, language, local, tell, template
+from app.commands.tongue import cell, known, language, local, tell, template
 from app.core.messages import counted, joined, sentence
 from app.core.words import printable
 
@@ -425,10 +425,10 @@ def _print_table(summaries: list[Any], note: str) -> None:
             s.id,
             s.student,
             s.exercise_id,
-            s.state,
+            _state(s.state),
             f"{s.duration:.0f} s",
             _total(s.score, s.signature),
-            s.signature,
+            known(s.signature),
             remark,
         )
         table.add_row(*(_plain(cell) for cell in cells))
@@ -472,13 +472,13 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
     score, metadata = document["score"] or {}, document["metadata"]
     radius, exercise = document["tip_radius_95_mm"], document["exercise"]
     hand = metadata.get("trainee", {}).get("hand")
-    known = sentence("± {radius:.1f} mm (95 %), median", radius=radius or 0.0)
+    certainty = sentence("± {radius:.1f} mm (95 %), median", radius=radius or 0.0)
     heads = (
         ("id", document["id"]),
         (sentence("started"), datetime.fromisoformat(document["started"]).astimezone()),
         (sentence("student"), document["student"]),
-        (sentence("state"), document["state"]),
-        (sentence("reason"), document["reason"]),
+        (sentence("state"), _state(document["state"])),
+        (sentence("reason"), known(document["reason"])),
         (sentence("duration"), sentence("{seconds:.1f} s", seconds=document["duration_s"])),
         (sentence("scans"), document["scans"]),
         (sentence("file"), document["file"]),
@@ -486,9 +486,9 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
         (sentence("hand"), hand or sentence("not recorded")),
         (sentence("whose"), nobodys or None),
         (sentence("calibration"), document["calibration"] or None),
-        (sentence("tip known to"), None if radius is None else known),
+        (sentence("tip known to"), None if radius is None else certainty),
         (sentence("score"), _total(document["score"], document.get("signature", ""))),
-        (sentence("void"), score.get("void_reason") or None),
+        (sentence("void"), known(score.get("void_reason") or "") or None),
     )
     lines = [_head(name, value) for name, value in heads if value is not None]
     for row in score.get("rows", []):
@@ -496,23 +496,29 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
         unsure = f" ± {sd:.1g}" if sd else ""
         value = "-" if row["value"] is None else f"{row['value']:.4g}{unsure} {row['unit']}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
-        label = language().text(row["label"])  # a title of a metric that ships
+        label = known(row["label"])
         comma = value.replace(".", language().number(0.5, ".1f")[1])
-        lines.append(f"  {label:32} {comma:>20}  {local(band or row['note'] or '')}")
+        lines.append(f"  {label:32} {comma:>20}  {known(band or row['note'] or '')}")
     for risk in document["published_risks"]:
         source = f" ({risk['source']})" if risk["source"] else ""
         lines.append(_head(sentence("published"), joined("", (risk["statement"], source))))
     for event in document["events"]:
         time = language().number(event["time_s"], "12.3f")
-        lines.append(f"  {time} s  {local(event['message'])}")
+        lines.append(f"  {time} s  {known(event['message'])}")
     lines += [_head(sentence("problem"), problem) for problem in document["problems"]]
-    return [*lines, document["note"]]
+    return [*lines, known(document["note"])]
+
+
+def _state(state: str) -> str:
+    """Return the word for a recorded state; the window has it with a capital."""
+    word = known(state.capitalize())
+    return state if word == state.capitalize() else word
 
 
 def _head(name: str, value: Any) -> str:
     """Return a line of a table of two columns in the reader's language."""
-    return f"{local(name):12} {cell(value)}"
+    return f"{local(name):12} {cell(value)}".rstrip()
 
 
 def _titled(exercise: dict[str, Any]) -> str:
-    return f"{language().text(exercise['title'] or '')} ({exercise['id']})"
+    return f"{known(exercise['title'] or '')} ({exercise['id']})"

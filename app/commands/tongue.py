@@ -14,6 +14,7 @@ from typing import Any
 import typer
 
 from app.core.language import ENGLISH, code, texts
+from app.core.messages import Sentence
 from app.core.texts import Texts
 
 
@@ -30,6 +31,12 @@ def language() -> Texts:
 def local(message: str | BaseException) -> str:
     """Return a sentence, or an error with one, in the language of whoever reads it."""
     return language().translated(message)
+
+
+def known(text: str) -> str:
+    """Return a text of a record or a file in the reader's language, where it is one of ours."""
+    here = language()
+    return here.translated(text) if isinstance(text, Sentence) else here.text(text)
 
 
 def tell(message: str | BaseException, err: bool = False) -> None:

@@ -4897,7 +4897,7 @@
         </message>
         <message>
             <source>screen and needle: not checked</source>
-            <translation type="unfinished">Bildschirm und Nadel: nicht geprüft</translation>
+            <translation type="unfinished">Bildschirm und Nadel: nicht kontrolliert</translation>
         </message>
         <message>
             <source>FRE says how well the points fit each other. It is not the accuracy at the target, and a small FRE does not promise one.</source>
@@ -10188,11 +10188,11 @@ Anteil</translation>
         </message>
         <message>
             <source>checked</source>
-            <translation type="unfinished">geprüft</translation>
+            <translation type="unfinished">kontrolliert</translation>
         </message>
         <message>
             <source>checked with remarks</source>
-            <translation type="unfinished">mit Anmerkungen geprüft</translation>
+            <translation type="unfinished">mit Anmerkungen kontrolliert</translation>
         </message>
         <message>
             <source>check failed</source>
@@ -18626,6 +18626,46 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>never warns</source>
             <translation type="unfinished">warnt nie</translation>
+        </message>
+        <message>
+            <source>the record was written while it was read</source>
+            <translation type="unfinished">die Aufzeichnung wurde geschrieben, während sie gelesen wurde</translation>
+        </message>
+        <message>
+            <source>the record is not the one that was signed</source>
+            <translation type="unfinished">die Aufzeichnung ist nicht die, die signiert wurde</translation>
+        </message>
+        <message>
+            <source>the list shows another {key} than was signed</source>
+            <translation type="unfinished">die Liste zeigt bei {key} anderes, als signiert wurde</translation>
+        </message>
+        <message>
+            <source>the {part} in it is not the one that was signed</source>
+            <translation type="unfinished">der Teil {part} darin ist nicht der, der signiert wurde</translation>
+        </message>
+        <message>
+            <source>no signature stands beside it</source>
+            <translation type="unfinished">es liegt keine Signatur daneben</translation>
+        </message>
+        <message>
+            <source>its signature cannot be read: {reason}</source>
+            <translation type="unfinished">die Signatur lässt sich nicht lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>its signature is damaged</source>
+            <translation type="unfinished">die Signatur ist beschädigt</translation>
+        </message>
+        <message>
+            <source>signed by another station ({station})</source>
+            <translation type="unfinished">von einer anderen Station signiert ({station})</translation>
+        </message>
+        <message>
+            <source>the signature beside it is that of another attempt</source>
+            <translation type="unfinished">die Signatur daneben gehört zu einem anderen Versuch</translation>
+        </message>
+        <message>
+            <source>its signature is not this station's</source>
+            <translation type="unfinished">die Signatur ist nicht die dieser Station</translation>
         </message>
     </context>
 </TS>

@@ -18627,5 +18627,45 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>never warns</source>
             <translation type="unfinished">n’avertit jamais</translation>
         </message>
+        <message>
+            <source>the record was written while it was read</source>
+            <translation type="unfinished">l’enregistrement a été écrit pendant sa lecture</translation>
+        </message>
+        <message>
+            <source>the record is not the one that was signed</source>
+            <translation type="unfinished">l’enregistrement n’est pas celui qui a été signé</translation>
+        </message>
+        <message>
+            <source>the list shows another {key} than was signed</source>
+            <translation type="unfinished">la liste montre pour {key} autre chose que ce qui a été signé</translation>
+        </message>
+        <message>
+            <source>the {part} in it is not the one that was signed</source>
+            <translation type="unfinished">la partie {part} qu’il contient n’est pas celle qui a été signée</translation>
+        </message>
+        <message>
+            <source>no signature stands beside it</source>
+            <translation type="unfinished">aucune signature ne se trouve à côté</translation>
+        </message>
+        <message>
+            <source>its signature cannot be read: {reason}</source>
+            <translation type="unfinished">la signature ne peut pas être lue : {reason}</translation>
+        </message>
+        <message>
+            <source>its signature is damaged</source>
+            <translation type="unfinished">la signature est endommagée</translation>
+        </message>
+        <message>
+            <source>signed by another station ({station})</source>
+            <translation type="unfinished">signé par un autre poste ({station})</translation>
+        </message>
+        <message>
+            <source>the signature beside it is that of another attempt</source>
+            <translation type="unfinished">la signature qui se trouve à côté est celle d’un autre essai</translation>
+        </message>
+        <message>
+            <source>its signature is not this station's</source>
+            <translation type="unfinished">la signature n’est pas celle de ce poste</translation>
+        </message>
     </context>
 </TS>
