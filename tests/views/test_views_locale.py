@@ -6,6 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 import pytest
+import yaml
 from PySide6.QtCore import QDate, QDateTime, QLocale, QTime
 from PySide6.QtGui import QFont, QFontMetrics
 
@@ -122,3 +123,10 @@ def test_panels_of_plan_and_robot_have_room_for_their_words(spoken, application)
     assert line._title.wordWrap()
     paths.deleteLater()
     line.deleteLater()
+
+
+def test_the_glossary_says_of_eighty_terms_where_their_words_are_usual():
+    words = (core_language.folder() / "glossary.yaml").read_text(encoding="utf-8")
+    terms = yaml.safe_load(words)["terms"]
+    assert len({term["en"] for term in terms}) == len(terms)
+    assert sum(term["source"] != "usage, not looked up" for term in terms) >= 80
