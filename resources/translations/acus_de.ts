@@ -1192,8 +1192,16 @@
             <translation type="unfinished">Problem</translation>
         </message>
         <message>
+            <source>wrote {file}</source>
+            <translation type="unfinished">{file} geschrieben</translation>
+        </message>
+        <message>
             <source>study {name} takes no --{option}; leave it out</source>
             <translation type="unfinished">die Studie {name} kennt kein --{option}; lassen Sie es weg</translation>
+        </message>
+        <message>
+            <source>tables and pictures are in {folder}</source>
+            <translation type="unfinished">Tabellen und Bilder liegen in {folder}</translation>
         </message>
         <message>
             <source>--orientation {orientation!r}: use {valid}</source>
@@ -18546,6 +18554,22 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}{trial_states:? (tried with {trial_states} states in {trial_s} s)}}</source>
             <translation type="unfinished">{refused:?✖|✔} {law}: {refused:?abgelehnt: {refused}|{title}{trial_states:? (mit {trial_states} Zuständen in {trial_s} s erprobt)}}</translation>
+        </message>
+        <message>
+            <source>none; `acus pacs add NAME` writes {file}</source>
+            <translation type="unfinished">keiner; `acus pacs add NAME` schreibt {file}</translation>
+        </message>
+        <message>
+            <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
+            <translation type="unfinished">{name} ist eingerichtet; `acus pacs echo --pacs {name}` fragt, ob es erreichbar ist</translation>
+        </message>
+        <message>
+            <source>{name} is forgotten</source>
+            <translation type="unfinished">{name} ist vergessen</translation>
+        </message>
+        <message>
+            <source>{name} answers in {time:.1f} ms</source>
+            <translation type="unfinished">{name} antwortet in {time:.1f} ms</translation>
         </message>
         <message>
             <source>nothing matches</source>

@@ -857,7 +857,7 @@
         </message>
         <message>
             <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
-            <translation type="unfinished">couleur du marqueur : le rouge habituel (dans le panneau du suivi, Apprendre en prend une autre)</translation>
+            <translation type="unfinished">couleur du marqueur : le rouge habituel (dans le panneau du suivi, Capter en prend une autre)</translation>
         </message>
         <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
@@ -1192,8 +1192,16 @@
             <translation type="unfinished">problème</translation>
         </message>
         <message>
+            <source>wrote {file}</source>
+            <translation type="unfinished">{file} écrit</translation>
+        </message>
+        <message>
             <source>study {name} takes no --{option}; leave it out</source>
             <translation type="unfinished">l’étude {name} n’accepte pas --{option} ; omettez-le</translation>
+        </message>
+        <message>
+            <source>tables and pictures are in {folder}</source>
+            <translation type="unfinished">les tableaux et les images sont dans {folder}</translation>
         </message>
         <message>
             <source>--orientation {orientation!r}: use {valid}</source>
@@ -13337,7 +13345,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Learn</source>
-            <translation type="unfinished">Apprendre</translation>
+            <translation type="unfinished">Capter</translation>
         </message>
         <message>
             <source>Learn the marker's colour: press, then click on the marker in a picture</source>
@@ -15012,7 +15020,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Map entries for this target</source>
-            <translation type="unfinished">Cartographier les points d’entrée vers la cible</translation>
+            <translation type="unfinished">Cartographier les points d’entrée</translation>
         </message>
         <message>
             <source>Clear</source>
@@ -18546,6 +18554,22 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}{trial_states:? (tried with {trial_states} states in {trial_s} s)}}</source>
             <translation type="unfinished">{refused:?✖|✔} {law} : {refused:?refusé : {refused}|{title}{trial_states:? (essayé avec {trial_states} états en {trial_s} s)}}</translation>
+        </message>
+        <message>
+            <source>none; `acus pacs add NAME` writes {file}</source>
+            <translation type="unfinished">aucun ; `acus pacs add NAME` écrit {file}</translation>
+        </message>
+        <message>
+            <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
+            <translation type="unfinished">{name} est configuré ; `acus pacs echo --pacs {name}` demande s’il répond</translation>
+        </message>
+        <message>
+            <source>{name} is forgotten</source>
+            <translation type="unfinished">{name} est oublié</translation>
+        </message>
+        <message>
+            <source>{name} answers in {time:.1f} ms</source>
+            <translation type="unfinished">{name} répond en {time:.1f} ms</translation>
         </message>
         <message>
             <source>nothing matches</source>
