@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from app.commands.answer import Commands, wants_json
+from app.commands.tongue import local
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def with_progress(work: "Callable[[Progress], T]") -> T:
         task = bar.add_task("", total=1.0)
 
         def show(fraction: float, text: str) -> None:
-            bar.update(task, completed=fraction, description=printable(text))
+            bar.update(task, completed=fraction, description=printable(local(text)))
 
         return work(Progress(show))
 
