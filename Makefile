@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless soak check bench trial fuzz kills accuracy promises tests-page portraits docs docs-pictures looks wheel clean
+.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless soak check bench trial fuzz kills accuracy promises tests-page portraits docs docs-pictures looks spelling wheel clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -98,6 +98,9 @@ fuzz: setup  ## ten thousand mutated files of every kind through their readers
 
 docs-pictures: setup  ## the pictures of README and docs
 	./tools/with-display $(BIN)/python -m tools.docs_pictures
+
+spelling: setup  ## the words of every language by hunspell and its dictionaries, where they are installed
+	$(BIN)/python -m tools.spelling
 
 looks: setup  ## every page and state in all sizes, languages and themes, judged by rules and compared: out/looks/index.html
 	./tools/with-display $(BIN)/python -m tools.looks $(LOOKS)

@@ -7,9 +7,11 @@ from typing import Final
 
 from app.commands import build
 from app.commands.output import printable_output
+from app.commands.tongue import local
 from app.core import paths
 from app.core.errors import AcusError
 from app.core.exits import Exit
+from app.core.messages import Sentence, sentence
 
 _OUTPUT_FULL: Final = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 
@@ -31,7 +33,14 @@ def _main() -> None:
         if error.filename is not None or error.errno not in _OUTPUT_FULL:
             raise
         _drop_output()
-        fail(f"the output could not be written: {error.strerror}; free some space there")
+        fail(
+            local(
+                sentence(
+                    "the output could not be written: {reason}; free some space there",
+                    reason=error.strerror,
+                )
+            )
+        )
 
 
 def _run() -> None:
@@ -45,7 +54,7 @@ def _run() -> None:
         sys.stdout.flush()
         raise
     except AcusError as error:
-        fail(str(error))
+        fail(local(error))
     except KeyboardInterrupt:
         sys.exit(Exit.BROKEN_OFF)
     except OSError:
@@ -55,10 +64,13 @@ def _run() -> None:
             sys.stdout.write(f"{error}\n")
             sys.exit(Exit.DONE)
         if type(error).__name__ == "Abort":
-            fail("a question was not answered; nothing was done")
+            fail(local(sentence("a question was not answered; nothing was done")))
         message = getattr(error, "format_message", None)
         if message is None:
             raise
+        own = getattr(error, "message", None)
+        if isinstance(own, Sentence):
+            fail(local(sentence("Invalid value: {reason}", reason=own)))
         fail(message().replace("Value error, ", ""))  # of the library, about our own words
 
 

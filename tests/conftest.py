@@ -13,6 +13,7 @@ from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 os.environ.setdefault("ACUS_ROLE", "technician")  # windows of tests have everything
+os.environ["LC_ALL"] = "C.UTF-8"  # answers and windows of tests are English, whoever runs them
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")  # tests are not heard
 os.environ.setdefault("MUJOCO_GL", "egl")
 # Each process of the tests shares the cores with the others: threads of its linear algebra would

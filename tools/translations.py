@@ -3,7 +3,9 @@
 Without an option it says what `resources/translations/acus_<code>.ts` lack of the program's texts
 and which translations cannot be used, and ends with 1 if there are any. With `--update` Qt's own
 `lupdate` adds new texts to the files and takes out those that are gone; a new language begins with
-`--update CODE`. Titles of declarations and texts of the exercises that ship are collected as well.
+`--update CODE`. Titles of declarations, texts of the exercises that ship and texts about a number
+of things (`tr_n`, `counted`) are collected as well. At the end it says how many literal texts of
+the command line nobody marked: they are English in every language.
 """
 
 import argparse
@@ -12,17 +14,20 @@ import re
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from string import Formatter
+from typing import Any
 from xml.etree import ElementTree
 
 from app.core import paths
+from app.core.language import folder
 from app.exercises.library import load_exercise
-from app.views.kit.language import folder
 
 ROOT = Path(__file__).resolve().parents[1]
-ALIASES = "tr+=sentence"
+ALIASES = "tr+=sentence,tr+=template"
+COUNTING = ("tr_n", "counted")
+"""Functions whose second literal is a text about a number of things."""
 _MARKUP = re.compile(r"</?[a-z]\w*")
 _CODE = re.compile(r"`[^`]*`")
 
@@ -46,6 +51,47 @@ def declared_texts() -> list[str]:
     return sorted(texts)
 
 
+def counted_texts() -> list[str]:
+    """Return the English texts about a number of things: for any other number than one."""
+    trees = (ast.parse(path.read_text(encoding="utf-8")) for path in (ROOT / "app").rglob("*.py"))
+    return sorted({text for tree in trees for text in _about_numbers(tree)})
+
+
+def _about_numbers(tree: ast.Module) -> Iterator[str]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in COUNTING:
+            several = node.args[1] if len(node.args) > 2 else None
+            if isinstance(several, ast.Constant) and isinstance(several.value, str):
+                yield several.value
+
+
+def unmarked_texts(tree: ast.Module) -> list[str]:
+    """Return the literal texts of a module of commands that no reader of another language gets.
+
+    Looked at are texts with a blank between words, as parts of code that runs; help stays English.
+    """
+    marked: list[ast.AST] = []
+    for node in ast.walk(tree):
+        name = getattr(getattr(node, "func", None), "id", "")
+        if isinstance(node, ast.Call) and name in ("sentence", "template", *COUNTING):
+            marked += node.args
+        if isinstance(node, ast.Expr) or getattr(node, "arg", "") in ("help", "metavar"):
+            marked += [
+                part for part in ast.iter_child_nodes(node) if isinstance(part, ast.Constant)
+            ]
+        if isinstance(node, ast.Subscript):  # of an annotation, or of a mapping
+            marked.append(node.slice)
+    left_out = {id(inner) for part in marked for inner in ast.walk(part)}
+    texts = [
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant)
+        and isinstance(node.value, str)
+        and id(node) not in left_out
+    ]
+    return [text for text in texts if re.search(r"[a-z]{2,} +[a-z]{2,}|^ ?[a-z]{3,} $", text)]
+
+
 def _titles(tree: ast.Module) -> Iterator[str]:
     dictionaries = [node for node in ast.walk(tree) if isinstance(node, ast.Dict)]
     for key, value in (
@@ -61,30 +107,45 @@ def _within_texts(tree: ast.Module) -> Iterator[str]:
     for text in (node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr)):
         for node in ast.walk(text):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.args:
-                first, marks = node.args[0], node.func.id in ("tr", "sentence")
+                first, marks = node.args[0], node.func.id in ("tr", "sentence", "template")
                 if marks and isinstance(first, ast.Constant) and isinstance(first.value, str):
                     yield first.value
 
 
-def update(files: Iterable[Path]) -> None:
+def update(files: Sequence[Path]) -> None:
     """Let `lupdate` add the program's texts to files, and take out those that are gone."""
     tool = Path(sys.executable).parent / "pyside6-lupdate"
     sources = sorted((ROOT / "app").rglob("*.py"))
     with tempfile.TemporaryDirectory() as place:
         more = Path(place) / "declared.py"
-        more.write_text("".join(f"tr({text!r})\n" for text in declared_texts()), encoding="utf-8")
+        lines = [f"tr({text!r})\n" for text in declared_texts()]
+        lines += [f'tr({text!r}, "", n)\n' for text in counted_texts()]
+        more.write_text("".join(lines), encoding="utf-8")
         command = [tool, "-silent", "-tr-function-alias", ALIASES, "-no-obsolete"]
         command += ["-locations", "none", *sources, more, "-ts", *files]
         subprocess.run([str(part) for part in command], check=True, timeout=300)
+    for file in files:
+        tree = ElementTree.parse(file)
+        ElementTree.indent(tree, " " * 4)
+        write(tree, file)
 
 
-def messages(file: Path) -> dict[str, str]:
-    """Return English text -> translation, empty where there is none."""
-    tree = ElementTree.parse(file)
-    return {
-        message.findtext("source") or "": message.findtext("translation") or ""
-        for message in tree.iter("message")
-    }
+def write(tree: Any, file: Path) -> None:
+    """Write a language's file in the one form in which all of them stand."""
+    head = '<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n'
+    text = ElementTree.tostring(tree.getroot(), encoding="unicode")
+    file.write_text(f"{head}{text}\n", encoding="utf-8")
+
+
+def messages(file: Path) -> dict[str, tuple[str, ...]]:
+    """Return English text -> the forms of its translation, empty where there is none."""
+    forms: dict[str, tuple[str, ...]] = {}
+    for message in ElementTree.parse(file).iter("message"):
+        several = [form.text or "" for form in message.iter("numerusform")]
+        single = message.findtext("translation") or ""
+        counted = message.get("numerus") == "yes"
+        forms[message.findtext("source") or ""] = tuple(several or [""] if counted else [single])
+    return forms
 
 
 def faults(english: str, text: str) -> list[str]:
@@ -106,10 +167,19 @@ def faults(english: str, text: str) -> list[str]:
 
 def _fields(text: str) -> list[tuple[str, str, str]]:
     return sorted(
-        (name, form or "", conversion or "")
+        field
         for _, name, form, conversion in Formatter().parse(text)
         if name is not None
+        for field in _of_field(name, form or "", conversion or "")
     )
+
+
+def _of_field(name: str, form: str, conversion: str) -> Iterator[tuple[str, str, str]]:
+    """Yield a field, and those within the texts that it chooses between (`commands/shown.py`)."""
+    chooses = form[:1] if form[:1] in ("?", "#") else ""
+    yield name, chooses or form, conversion
+    if chooses == "?":
+        yield from _fields(form[1:])
 
 
 def _accelerators(text: str) -> int:
@@ -124,11 +194,12 @@ def problems(file: Path, texts: Iterable[str]) -> list[str]:
     """Say what a language lacks of texts, and which of its translations cannot be used."""
     there = messages(file)
     lines = [f"{file.name}: not in it: {text!r}" for text in texts if text not in there]
-    for english, text in there.items():
-        if not text.strip():
+    for english, forms in there.items():
+        if not all(text.strip() for text in forms):
             lines.append(f"{file.name}: not translated: {english!r}")
         else:
-            lines += [f"{file.name}: {english!r}: {fault}" for fault in faults(english, text)]
+            wrong = [fault for text in forms for fault in faults(english, text)]
+            lines += [f"{file.name}: {english!r}: {fault}" for fault in wrong]
     return lines
 
 
@@ -150,6 +221,9 @@ def main() -> None:
     lines = [line for file in files for line in problems(file, texts)]
     print("\n".join(lines[:40]))
     print(f"{len(texts)} texts in {len(files)} languages: {len(lines)} problems")
+    commands = (ROOT / "app" / "commands").glob("*.py")
+    left = [unmarked_texts(ast.parse(path.read_text(encoding="utf-8"))) for path in commands]
+    print(f"{sum(map(len, left))} texts of the command line are English in every language")
     raise SystemExit(bool(lines))
 
 

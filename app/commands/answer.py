@@ -14,6 +14,7 @@ import typer
 from typer.core import TyperCommand
 
 from app.commands.shown import Shown, lines
+from app.commands.tongue import tell
 from app.core.exits import Exit
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -63,7 +64,7 @@ class AnsweringCommand(TyperCommand):
             found.lines()
         else:
             for line in (*lines(found.shown, found.facts), *found.lines):
-                typer.echo(line)
+                tell(line)
         if found.crashed:
             raise SystemExit(Exit.CRASHED)
         if found.yes is False:

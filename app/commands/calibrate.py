@@ -24,6 +24,7 @@ from app.commands.calibrate_parts import (
 )
 from app.commands.calibrate_parts import Images as Folder
 from app.commands.shown import Each
+from app.commands.tongue import tell, template
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
@@ -103,22 +104,24 @@ def world(
     if keep:
         history.keep(placed)
     refused = [view for view in looked if isinstance(view, Rejection)]
-    agree = "places        agree within {disagreement_mm:.2f} mm"
+    agree = template("places        agree within {disagreement_mm:.2f} mm")
     return Answer(
         world_document(placed, frame, refused) | {"kept": keep},
         shown=(
             Each(
                 "camera_centres_mm",
-                "{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm",
+                template("{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm"),
             ),
-            "residual      {rms_px:.3f} px in {pictures:#} pictures",
-            "{scale:?scale         {scale:.5f} ± {scale_sd:.5f} of the board's size}",
-            "{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm "
-            "(standard deviation per axis)}",
+            template("residual      {rms_px:.3f} px in {pictures:#} pictures"),
+            template("{scale:?scale         {scale:.5f} ± {scale_sd:.5f} of the board's size}"),
+            template(
+                "{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm "
+                "(standard deviation per axis)}"
+            ),
             agree if frame.disagreement_mm > 0.0 else "",
-            Each("remarks", "look at       {}"),
-            Each("refused", "not used      {name}: {text}"),
-            "{kept:?in use from now on: {id}|not kept: add --keep to use it}",
+            Each("remarks", template("look at       {}")),
+            Each("refused", template("not used      {name}: {text}")),
+            template("{kept:?in use from now on: {id}|not kept: add --keep to use it}"),
         ),
     )
 
@@ -344,7 +347,7 @@ def stereo(
     lines = [*stereo_lines(found, checks, verdict), *(f"  {line}" for line in paired.remarks)]
     if verdict.grade is Grade.NOT_GOOD_ENOUGH and not force:
         if out is not None or keep:
-            typer.echo("not written and not kept; --force does it all the same", err=True)
+            tell(sentence("not written and not kept; --force does it all the same"), err=True)
         return Answer(facts, lines, yes=False)
     _write(found, out, keep)
     return Answer(facts, lines, yes=True)

@@ -8,6 +8,7 @@ import typer
 from app.commands.answer import Answer
 from app.commands.calibrate_parts import app, lens_named
 from app.commands.shown import Each
+from app.commands.tongue import template
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 
@@ -26,7 +27,7 @@ def list_() -> Answer:
     """List all calibrations. Newest first, and which one is in use."""
     history = _history()
     documents = [entry_document(history, entry) for entry in reversed(history.entries())]
-    row = (
+    row = template(
         "{in_use:?*| } {id:28} {problem:?{problem}|"
         "{cameras.0.image_size.0}x{cameras.0.image_size.1}, "
         "{cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  "
@@ -34,7 +35,9 @@ def list_() -> Answer:
         "  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}"
     )
     facts = {"folder": str(history.folder), "calibrations": documents}
-    return Answer(facts, shown=Each("calibrations", row, none="no calibrations in {folder}"))
+    return Answer(
+        facts, shown=Each("calibrations", row, none=template("no calibrations in {folder}"))
+    )
 
 
 @app.command("show")
@@ -111,7 +114,9 @@ def export(
             sentence("--format {kind}: only yaml and ros can be written", kind=kind)
         )
     written = [str(path) for path in files]
-    return Answer({"id": calibration.id, "files": written}, shown="{id} written to {files}")
+    return Answer(
+        {"id": calibration.id, "files": written}, shown=template("{id} written to {files}")
+    )
 
 
 @app.command("import")
@@ -179,10 +184,12 @@ def board_(
         "ambiguous": known.ambiguous,
     }
     shown = (
-        "{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}",
-        "{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or one "
-        "with an odd and an even count of corners, does not}",
-        "print at 100 %, not fitted to the page, and measure the line of 100 mm",
+        template("{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}"),
+        template(
+            "{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or "
+            "one with an odd and an even count of corners, does not}"
+        ),
+        sentence("print at 100 %, not fitted to the page, and measure the line of 100 mm"),
     )
     return Answer(facts, shown=shown)
 
@@ -245,8 +252,10 @@ def calibration_lines(calibration: "StereoCalibration") -> list[str]:
         )
     if not calibration.uncertainty_known:
         lines.append(
-            "uncertainty   the calibration's own uncertainty is not known: every stated radius "
-            "leaves it out"
+            sentence(
+                "uncertainty   the calibration's own uncertainty is not known: every stated radius "
+                "leaves it out"
+            )
         )
     lines.append(f"world         {'known' if calibration.world else 'not known'}")
     return lines + [f"note          {note}" for note in calibration.notes]
@@ -261,4 +270,4 @@ def _history() -> "CalibrationHistory":
 def _in_use(history: "CalibrationHistory") -> Answer:
     active = history.active()
     facts = {"in_use": None if active is None else active.id}
-    return Answer(facts, shown="{in_use:?in use: {in_use}|no calibration is in use}")
+    return Answer(facts, shown=template("{in_use:?in use: {in_use}|no calibration is in use}"))

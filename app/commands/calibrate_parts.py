@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from app.commands.answer import Commands, wants_json
+from app.commands.tongue import local
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def with_progress(work: "Callable[[Progress], T]") -> T:
         task = bar.add_task("", total=1.0)
 
         def show(fraction: float, text: str) -> None:
-            bar.update(task, completed=fraction, description=printable(text))
+            bar.update(task, completed=fraction, description=printable(local(text)))
 
         return work(Progress(show))
 
@@ -247,8 +248,10 @@ def stereo_lines(
     lines += [f"  {'agrees' if check.passed else 'CONTRADICTS'}: {check.text}" for check in checks]
     if not checks:
         lines.append(
-            "  not checked: the board's size; give --baseline-mm, or a second board "
-            "(--check-images, --check-board)"
+            sentence(
+                "  not checked: the board's size; give --baseline-mm, or a second board "
+                "(--check-images, --check-board)"
+            )
         )
     lines += _residual_lines(outcome.result.residuals)
     lines += _refused(outcome.read) + [f"  {note}" for note in calibration.notes]
@@ -264,7 +267,7 @@ def _plain_line(rms_px: float | None) -> list[str]:
 def _validation_lines(result: "StereoSet") -> list[str]:
     value = result.calibration.validation
     if value is None:
-        return ["  not validated: no pairs were held back (--hold-back N)"]
+        return [sentence("  not validated: no pairs were held back (--hold-back N)")]
     return [
         f"  {value.views} pairs held back: corners within {value.rms_mm:.3f} mm RMS (at most "
         f"{value.max_mm:.3f} mm) of the true board, lengths x {value.scale:.5f} ± "
@@ -290,7 +293,7 @@ def _parameter_lines(camera: "CameraCalibration") -> list[str]:
 
 
 def _residual_lines(residuals: "Sequence[ViewResidual]") -> list[str]:
-    words = {"used": "", "outlier": "left out", "held_back": "held back"}
+    words = {"used": "", "outlier": sentence("left out"), "held_back": sentence("held back")}
     return [f"  {r.name:<32} {r.rms_px:7.3f} px  {words[r.role]}".rstrip() for r in residuals]
 
 

@@ -9,7 +9,8 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
-from app.core.messages import sentence
+from app.commands.tongue import template
+from app.core.messages import listed, sentence
 
 if TYPE_CHECKING:
     from app.tracking.cameras.settings import CameraSettings
@@ -56,7 +57,11 @@ def list_cameras() -> Answer:
     return Answer(
         {"plugged_in": plugged_in, "chosen": settings.model_dump(mode="json")},
         shown=(
-            Each("plugged_in", "{source:<16} {title}  {node}", none="no camera is plugged in"),
+            Each(
+                "plugged_in",
+                "{source:<16} {title}  {node}",
+                none=sentence("no camera is plugged in"),
+            ),
             "left   {chosen.left.source}",
             "right  {chosen.right.source}",
         ),
@@ -117,7 +122,7 @@ def use(
         {"chosen": settings.model_dump(mode="json"), "file": file, "warnings": warnings},
         shown=(
             "left {chosen.left.source}, right {chosen.right.source}",
-            "saved in {file}",
+            template("saved in {file}"),
         ),
     )
 
@@ -183,7 +188,7 @@ def aim(
         "losses": list(cone.losses()),
         "basis": found.basis,
     }
-    seen = "both cameras see {share:.0%} of the needle's cone ({basis})"
+    seen = template("both cameras see {share:.0%} of the needle's cone ({basis})")
     return Answer(facts, shown=(seen, Each("losses")))
 
 
@@ -203,7 +208,7 @@ def latency(
     facts, lines = {}, []
     for name, camera in known.items():
         facts[name] = {"latency_ms": camera.latency_ms, "sd_ms": camera.latency_sd_ms}
-        told = "not measured; use --display"
+        told: str = sentence("not measured; use --display")
         if camera.latency_ms is not None:
             told = f"{camera.latency_ms:.1f} ms, spread {camera.latency_sd_ms or 0.0:.1f} ms"
         lines.append(f"{name:<6} {camera.source}: {told}")
@@ -256,7 +261,7 @@ def _measure(side: str) -> None:
             sentence(
                 "there is no {side!r} camera; there are {sides}",
                 side=side,
-                sides=" and ".join(SIDES),
+                sides=listed(SIDES),
             )
         )
     settings = load_settings()
@@ -285,7 +290,7 @@ def _measure(side: str) -> None:
 def report_lines(report: CameraReport) -> list[str]:
     """Return what a camera delivered, a line each, for people."""
     figures = report.figures
-    times = {True: "the driver's", False: "of the delivery, less the latency"}
+    times = {True: sentence("the driver's"), False: sentence("of the delivery, less the latency")}
     lines = [
         f"{report.name}: {report.size[0]}x{report.size[1]}, {figures.rate:.1f} pictures/s, "
         f"jitter {1e3 * figures.jitter:.1f} ms, {100.0 * figures.repeated_share:.1f} % repeated",
@@ -304,7 +309,7 @@ def colour_line(settings: CameraSettings) -> str:
     """Return which colour of the marker is looked for, for people."""
     colour = settings.marker_colour
     if colour is None:
-        return "marker's colour: the usual red (the tracker panel's Learn takes another)"
+        return sentence("marker's colour: the usual red (the tracker panel's Learn takes another)")
     blue, green, red = colour.bgr
     return (
         f"marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within "

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from app.commands.answer import Answer
+from app.commands.tongue import local
+from app.core.messages import joined, sentence
 
 if TYPE_CHECKING:
     from app.session.checks.record import DayCheck
@@ -47,7 +49,7 @@ def check(
 
     found = newest_check() if last else _made(device, cameras, plate, point, touch)
     if found is None:
-        none = ["no daily check was made yet"]
+        none = [sentence("no daily check was made yet")]
         return Answer({"check": None}, none, yes=False)
     document = found.model_dump(mode="json")
     passed = found.verdict not in (CheckVerdict.BAD, CheckVerdict.WAITING)
@@ -75,7 +77,9 @@ def _made(
                 running.move_to(place)
             else:
                 typer.prompt(
-                    f"Rest the tip in {name} and hold still; press Enter",
+                    local(
+                        sentence("Rest the tip in {name} and hold still; press Enter", name=name)
+                    ),
                     default="",
                     show_default=False,
                     err=True,
@@ -98,9 +102,9 @@ def _made(
 def _lines(result: "DayCheck") -> list[str]:
     from datetime import datetime
 
-    lines = []
+    lines: list[str] = []
     for step in result.steps:
-        lines.append(f"{_MARKS[step.verdict.value]} {step.name:10} {step.found}")
+        lines.append(joined("", (f"{_MARKS[step.verdict.value]} {step.name:10} ", step.found)))
         if step.todo:
-            lines.append(f"  {'':10} → {step.todo}")
+            lines.append(joined("", (f"  {'':10} → ", step.todo)))
     return [*lines, result.words(datetime.now().astimezone())]

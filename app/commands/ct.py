@@ -9,6 +9,7 @@ from typer.core import TyperGroup
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.commands.tongue import template
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 
@@ -118,8 +119,10 @@ def point(
             folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"), (frame or 1) - 1
         )
     shown = (
-        "LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, "
-        "{hu:?{hu:g} HU|no HU: padding, nothing was measured there}",
+        template(
+            "LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, "
+            "{hu:?{hu:g} HU|no HU: padding, nothing was measured there}"
+        ),
         "{sop_uid:?SOPInstanceUID {sop_uid}, frame {frame}}" if voxel is not None else "",
     )
     return Answer({"lps_mm": lps_mm, "hu": hu, **source}, shown=shown)
@@ -255,7 +258,7 @@ def list_entries() -> Answer:
     for entry in entries:
         opens = "" if entry.remedy == "none" else f"  opens with --remedy {entry.remedy}"
         lines.append(f"{entry.name}  {entry.label}  {entry.files} files{opens}  {entry.folder}")
-    empty = "the library is empty; `acus ct import DIR` takes a CT in"
+    empty = sentence("the library is empty; `acus ct import DIR` takes a CT in")
     return Answer({"entries": [_entry(entry) for entry in entries]}, lines or [empty])
 
 

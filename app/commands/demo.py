@@ -22,9 +22,11 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from app.commands import completion
+from app.commands.tongue import language, local, tell
 from app.core import plugin_folders
 from app.core.errors import AcusError
 from app.core.files import read_at_most
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
@@ -32,7 +34,7 @@ if TYPE_CHECKING:
     from app.views.shell.demonstration import DemonstrationScript, MakesLeader
 
 
-TOO_BUSY: Final = (
+TOO_BUSY: Final = sentence(
     "this computer was too busy: the simulated cameras' pictures came too late; close other "
     "programs, then try again"
 )
@@ -125,7 +127,7 @@ def demo(
     shown = load_exercise(exercise)
     other = None if device.value == _OWN else _demonstration(device.value)
     if other is not None:
-        other.prepare(shown, cameras == "simulated" and not pen, typer.echo)
+        other.prepare(shown, cameras == "simulated" and not pen, tell)
     from app.views.shell.application import has_display
 
     hidden = headless or not has_display()
@@ -146,10 +148,10 @@ def _demonstration(name: str) -> ModuleType:
 def _show_alone(demonstration: ModuleType, seed: int, folder: Path) -> None:
     from app.core.exits import Exit
 
-    failure = demonstration.alone(seed, folder, typer.echo)
-    typer.echo(f"pictures and report are in {folder}")
+    failure = demonstration.alone(seed, folder, tell)
+    tell(sentence("pictures and report are in {folder}", folder=folder))
     if failure:
-        typer.echo(failure)
+        tell(failure)
         raise typer.Exit(Exit.NO)
 
 
@@ -210,7 +212,7 @@ def _show(
     window.close()
     collector.close()
     if show.aborted and hidden:
-        typer.echo(f"  void: {show.aborted}")
+        tell(sentence("  void: {reason}", reason=show.aborted))
         raise typer.Exit(Exit.NO)
     if failures and hidden:
         raise AcusError(failures[0])
@@ -224,20 +226,28 @@ def _tell(result: AttemptResult, script: DemonstrationScript, hurried: bool) -> 
     """
     score, void = result.score, []
     if score is not None:
+        here = language()
         for row in score.rows:
-            value = "–" if row.value is None else f"{row.value:z.2f} {row.unit}"
-            typer.echo(f"  {row.label:<28} {value}".rstrip())
-        total = "void" if score.total is None else f"{score.total:.0f} of 100"
-        typer.echo(f"  {'Score':<28} {total}, {'passed' if score.passed else 'not passed'}")
+            value = "–" if row.value is None else f"{here.number(row.value, 'z.2f')} {row.unit}"
+            typer.echo(f"  {here.text(row.label):<28} {value}".rstrip())
+        points = sentence("{total:.0f} of 100", total=score.total or 0.0)
+        total = sentence("void") if score.total is None else points
+        passed = sentence("passed") if score.passed else sentence("not passed")
+        typer.echo(f"  {here.text('Score'):<28} {local(total)}, {local(passed)}")
         for fail in score.hard_fails:
-            typer.echo(f"  {fail}")
+            typer.echo(f"  {local(fail)}")
         if score.void_reason:
             void.append(score.void_reason)
-            typer.echo(f"  void: {score.void_reason}")
+            tell(sentence("  void: {reason}", reason=score.void_reason))
         if score.unseen and hurried:
-            typer.echo(f"  {TOO_BUSY}")
+            typer.echo(f"  {local(TOO_BUSY)}")
     if script.pictures is not None:
-        typer.echo(f"pictures and report are in {script.pictures}")
+        tell(sentence("pictures and report are in {folder}", folder=script.pictures))
         if result.record is not None:
-            typer.echo(f"session: {result.record} (`acus session show`, `replay`: by this path)")
+            tell(
+                sentence(
+                    "session: {record} (`acus session show`, `replay`: by this path)",
+                    record=result.record,
+                )
+            )
     return void

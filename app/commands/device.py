@@ -64,7 +64,7 @@ def list_ports() -> Answer:
                 "description": profile.description,
             }
         )
-    none = "no serial ports; plug the robot in, or try `acus device emulate`"
+    none = sentence("no serial ports; plug the robot in, or try `acus device emulate`")
     shown = (
         Each("ports", "{port:<16} {description}  {hardware}", none),
         "profiles:",

@@ -12,6 +12,9 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from app.commands.tongue import local
+from app.core.messages import sentence
+
 if TYPE_CHECKING:
     from app.session.access import Visitor
     from app.session.people import People
@@ -39,9 +42,9 @@ def instructor(people: "People | None" = None) -> None:
         return
     given = os.environ.get(PASSWORD)
     if given is None:
-        given = secret("Instructor's password")
+        given = secret(sentence("Instructor's password"))
     if unkept := people.check_instructor(given):
-        typer.echo(f"acus: {unkept}", err=True)
+        typer.echo(f"acus: {local(unkept)}", err=True)
 
 
 def secret(question: str, confirm: bool = False) -> str:
@@ -52,7 +55,9 @@ def secret(question: str, confirm: bool = False) -> str:
     except OSError:  # `getpass` would warn that it may be shown, where nothing shows anything
         hidden = False
     with redirect_stdout(sys.stderr):  # `input` writes the end of its question to the answer
-        answer = typer.prompt(question, hide_input=hidden, confirmation_prompt=confirm, err=True)
+        answer = typer.prompt(
+            local(question), hide_input=hidden, confirmation_prompt=confirm, err=True
+        )
     return str(answer)
 
 

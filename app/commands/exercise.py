@@ -10,7 +10,8 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.shown import Each
-from app.core.messages import sentence
+from app.commands.tongue import template
+from app.core.messages import joined, sentence, sentence_of
 
 if TYPE_CHECKING:
     from app.compose.skill_scores import SkillOutcome
@@ -61,8 +62,11 @@ def list_exercises() -> Answer:
         )
     broken = [{"file": str(file.path), "reason": file.reason} for file in known.broken]
     shown = (
-        Each("exercises", "{level}  {id}  version {version}  {title}{shipped:?|  (your own)}"),
-        Each("broken", "✖ cannot be used: {reason}"),
+        Each(
+            "exercises",
+            template("{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}"),
+        ),
+        Each("broken", template("✖ cannot be used: {reason}")),
     )
     facts = {"exercises": rows, "broken": broken, "folder": str(folders()[1])}
     return Answer(facts, shown=shown)
@@ -161,19 +165,23 @@ def validate(
         try:
             found = load_exercise(name)
         except AcusError as error:
-            row["problems"] = [str(error)]
+            row["problems"] = [sentence_of(error)]
             continue
         wrong = quick_explanation(found)[1]
         row |= {"id": found.id, "version": found.version}
-        row["problems"] = [f"{name}: {field}: {why}{_line(name, field)}" for field, why in wrong]
+        row["problems"] = [
+            joined("", (f"{name}: {field}: ", why, _line(name, field))) for field, why in wrong
+        ]
         if physics and not wrong:
             try:
                 calls, _ = calls_of(found)
             except AcusError as error:
-                row["problems"] = [f"{name}: {error}"]
+                row["problems"] = [joined(": ", (name, sentence_of(error)))]
             else:
-                row["problems"] = [f"{name}: {call.words}" for call in calls if call.is_absent]
-    problems = Each("problems", "✖ {}", none="✔ {exercise}: {id}, version {version}")
+                row["problems"] = [
+                    joined(": ", (name, call.words)) for call in calls if call.is_absent
+                ]
+    problems = Each("problems", "✖ {}", none=template("✔ {exercise}: {id}, version {version}"))
     fine = not any(row["problems"] for row in rows)
     return Answer({"exercises": rows}, yes=fine, shown=Each("exercises", problems))
 
@@ -199,8 +207,14 @@ def suggest(exercise: Name) -> Answer:
         for call in calls
     ]
     facts = {"id": chosen.id, "version": chosen.version, "called_for": rows, "add": more}
-    absent = [f"# {call.effect}: {call.reason}" for call in calls if call.is_absent]
-    nothing = [f"# nothing is absent without a reason in {chosen.id}, version {chosen.version}"]
+    absent = [joined("", (f"# {call.effect}: ", call.reason)) for call in calls if call.is_absent]
+    nothing = [
+        sentence(
+            "# nothing is absent without a reason in {id}, version {version}",
+            id=chosen.id,
+            version=chosen.version,
+        )
+    ]
     return Answer(facts, [*absent, *suggested_lines(more)] or nothing)
 
 
@@ -248,10 +262,11 @@ def pack(
 
     manifest = with_progress(work)
     facts = {"file": str(target), "manifest": manifest.model_dump(mode="json")}
-    place = "in the file" if with_ct else "not in the file"
+    there = template("  CT {manifest.ct.digest:.12}… is in the file")
+    absent = template("  CT {manifest.ct.digest:.12}… is not in the file")
     shown = (
-        "{file}: {manifest.id}, version {manifest.exercise_version}",
-        "  CT {manifest.ct.digest:.12}… is " + place,
+        template("{file}: {manifest.id}, version {manifest.exercise_version}"),
+        there if with_ct else absent,
     )
     return Answer(facts, shown=shown)
 
@@ -287,7 +302,9 @@ def unpack(
         "ct": None if found.ct is None else str(found.ct),
         "structures": [str(path) for path in found.structures],
     }
-    return Answer(facts, shown="{id}, version {version} {known:?was there already|taken in}")
+    return Answer(
+        facts, shown=template("{id}, version {version} {known:?was there already|taken in}")
+    )
 
 
 WINDOW: Final = "window"
@@ -313,7 +330,6 @@ def trial(
     from app.commands.calibrate_parts import with_progress
     from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, skill_outcomes
     from app.core.errors import AcusError
-    from app.core.messages import sentence
     from app.exercises.library import load_exercise
     from app.simulation.hands import Script
 
@@ -355,16 +371,16 @@ def trial(
     facts = {"id": chosen.id, "version": chosen.version, "seeds": seeds, "skills": rows}
     facts["script"] = script
     facts |= {"ordered_seeds": ordered_seeds(outcomes), "ordered_share": ordered_share(outcomes)}
-    row = (
+    row = template(
         "{skill:<12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|"
         "     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s"
         "{without_score:#  # without a score|  # without a score|}"
     )
     shown = (
-        "skill        median    quartiles  passed   time",
+        template("skill        median    quartiles  passed   time"),
         Each("skills", row),
-        "all skills in their order: {ordered_seeds:.0%} of the seeds",
-        "neighbouring skills ordered right, any seed with any: {ordered_share:.0%}",
+        template("all skills in their order: {ordered_seeds:.0%} of the seeds"),
+        template("neighbouring skills ordered right, any seed with any: {ordered_share:.0%}"),
     )
     return Answer(facts, shown=shown)
 
@@ -376,4 +392,4 @@ def _line(name: str, field: str) -> str:
 
     path = Path(name) if Path(name).is_file() else library().files.get(name)
     line = None if path is None else line_of(read_text(path), (field,))
-    return f" (line {line})" if line else ""
+    return sentence(" (line {line})", line=line) if line else ""

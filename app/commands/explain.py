@@ -6,6 +6,8 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer
+from app.commands.tongue import language, local, tell
+from app.core.messages import joined, sentence
 
 _TICK_NS = 1e9 / 1000.0
 
@@ -37,7 +39,7 @@ def explain(
 
     chosen = load_exercise(exercise)
     if _is_first_time():
-        typer.echo("compiling for the first time, up to a minute …", err=True)
+        tell(sentence("compiling for the first time, up to a minute …"), err=True)
     document = explanation(chosen, simulated=not real)
     document["refused"] = [
         {"kind": file.kind, "file": str(file.path), "reason": file.refused}
@@ -58,67 +60,113 @@ def _is_first_time() -> bool:
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
-    kind = "simulated" if document["simulated_device"] else "real"
-    lines = [f"{document['exercise']} on the {kind} device {document['device']}"]
+    names = {"exercise": document["exercise"], "device": document["device"]}
+    lines: list[str] = [
+        sentence("{exercise} on the simulated device {device}", **names)
+        if document["simulated_device"]
+        else sentence("{exercise} on the real device {device}", **names)
+    ]
     for law in document["laws"]:
+        energy = joined("", (f"{law['energy']}: ", law["energy_statement"]))
+        bound = sentence("{energy:.1f} mJ", energy=1000.0 * law["energy_bound_j"])
         lines += [
-            f"\n  {law['law']}: {law['title']}",
-            f"    energy   {law['energy']}: {law['energy_statement']}",
-            f"    bound    {1000.0 * law['energy_bound_j']:.1f} mJ",
-            f"    cost     {_cost(law['cost_ns'])}",
+            f"\n  {law['law']}: {language().text(law['title'])}",
+            _row(sentence("energy"), energy),
+            _row(sentence("bound"), bound),
+            _row(sentence("cost"), _cost(law["cost_ns"])),
         ]
-    for kept in document["simulated"]:
+    for effect in document["simulated"]:
+        model = joined("", (f"{effect['model']}: ", effect["model_description"]))
         lines += [
-            f"\n  {kept['effect']}: {kept['title']}",
-            f"    model    {kept['model']}: {kept['model_description']}",
-            f"    why      {kept['why']}",
-            f"    energy   {kept['energy']}",
-            f"    cost     {_cost(kept['cost_ns'], kept['picture_ns'])}",
-            *(f"    note     {warning}" for warning in kept["warnings"]),
+            f"\n  {effect['effect']}: {language().text(effect['title'])}",
+            _row(sentence("model"), model),
+            _row(sentence("why"), effect["why"]),
+            _row(sentence("energy"), effect["energy"]),
+            _row(sentence("cost"), _cost(effect["cost_ns"], effect["picture_ns"])),
+            *(_row(sentence("note"), warning) for warning in effect["warnings"]),
         ]
-    lines += [f"\n  {dropped['effect']}\n    {dropped['why']}" for dropped in document["dropped"]]
+    lines += [
+        joined("", (f"\n  {dropped['effect']}\n    ", dropped["why"]))
+        for dropped in document["dropped"]
+    ]
     if not document["simulated"] and not document["dropped"]:
-        lines.append("  no effects")
+        lines.append(sentence("  no effects"))
     lines += ["", *called_for_lines(document)]
     if (touch := document["touch"]) is not None:
         lines.append(
-            f"\n  touches {len(touch['depths_mm'])} targets, each for {touch['dwell_s']:g} s within"
-            f" {touch['radius_mm']:g} mm; the hand moves the tool's handle"
+            sentence(
+                "\n  touches {targets} targets, each for {dwell:g} s within {radius:g} mm; "
+                "the hand moves the tool's handle",
+                targets=len(touch["depths_mm"]),
+                dwell=touch["dwell_s"],
+                radius=touch["radius_mm"],
+            )
         )
         for number, (at, depth, scale) in enumerate(
             zip(touch["targets_lps_mm"], touch["depths_mm"], touch["scales"], strict=True), 1
         ):
             place = ", ".join(f"{value:.1f}" for value in at)
             lines.append(
-                f"    {number}  at ({place}) mm LPS, {depth:.0f} mm deep:"
-                f" 1 mm of hand moves the tip {-scale:.2f} mm the other way"
+                sentence(
+                    "    {target}  at ({place}) mm LPS, {depth:.0f} mm deep: 1 mm of hand moves "
+                    "the tip {scale:.2f} mm the other way",
+                    target=number,
+                    place=place,
+                    depth=depth,
+                    scale=-scale,
+                )
             )
     for line in document["pass_lines"]:
-        lines.append(f"\n  {line['metric']} passes to {line['pass']:g}: {line['words']}")
+        lines.append(
+            sentence(
+                "\n  {metric} passes to {limit:g}: {reason}",
+                metric=line["metric"],
+                limit=line["pass"],
+                reason=line["words"],
+            )
+        )
     for file in document["refused"]:
-        lines.append(f"\n  refused {file['kind']}: {file['reason']}")
+        lines.append(
+            sentence("\n  refused {kind}: {reason}", kind=file["kind"], reason=file["reason"])
+        )
     return lines
 
 
 def called_for_lines(document: dict[str, Any]) -> list[str]:
     """Return what the patient calls for, and whether it is there, absent or left out."""
     if not document["called_for"]:
-        return [f"  {document['called_for_note']}"]
-    lines = ["  the patient calls for"]
+        return [joined("", ("  ", document["called_for_note"]))]
+    lines: list[str] = [sentence("  the patient calls for")]
     for call in document["called_for"]:
         mark = "✔" if call["simulated"] else "–" if call["without"] else "✖"
-        lines.append(f"    {mark} {call['effect']}: {call['reason']}")
+        lines.append(joined("", (f"    {mark} {call['effect']}: ", call["reason"])))
         if call["without"] and not call["simulated"]:
-            lines.append(f"      left out: {call['without']}")
+            lines.append(sentence("      left out: {reason}", reason=call["without"]))
         if call["absent"]:
-            cost = "" if call["cost_ns"] is None else f", {_cost(call['cost_ns'])}"
-            lines.append(f"      absent{cost}")
+            lines.append(
+                sentence("      absent")
+                if call["cost_ns"] is None
+                else sentence("      absent, {cost}", cost=_cost(call["cost_ns"]))
+            )
     if document["add"]:
-        lines.append(f"  add it: acus exercise suggest {document['exercise']}")
+        lines.append(
+            sentence("  add it: `acus exercise suggest {name}`", name=document["exercise"])
+        )
     return lines
 
 
 def _cost(nanoseconds: float, picture: float | None = None) -> str:
     if picture is not None:
-        return f"{picture / 1e6:.2f} ms for each picture of a camera, nothing of a tick"
-    return f"{nanoseconds:.0f} ns per tick, {100.0 * nanoseconds / _TICK_NS:.4f} % of 1 ms"
+        return sentence(
+            "{time:.2f} ms for each picture of a camera, nothing of a tick", time=picture / 1e6
+        )
+    return sentence(
+        "{time:.0f} ns per tick, {share:.4f} % of 1 ms",
+        time=nanoseconds,
+        share=100.0 * nanoseconds / _TICK_NS,
+    )
+
+
+def _row(name: str, value: str) -> str:
+    """Return a line of a table of two columns in the reader's language."""
+    return f"    {local(name):8} {local(value)}"

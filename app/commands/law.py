@@ -6,6 +6,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.commands.tongue import template
 
 app = Commands(help="The force laws, the program's and your own.")
 
@@ -29,7 +30,7 @@ def list_laws(
     Ends with code 3 if one is refused. Nothing is deleted.
     """
     rows = _rows(tried)
-    shown = (
+    shown = template(
         "{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}"
         "{trial_states:? (tried with {trial_states} states in {trial_s} s)}}"
     )

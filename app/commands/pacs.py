@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.ct import MASK_HELP, Mend, RemedyGroup
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -46,7 +47,8 @@ def list_servers() -> Answer:
         for one in servers
     ]
     facts = {"servers": [one.model_dump() for one in servers]}
-    return Answer(facts, lines or [f"none; acus pacs add NAME writes {pacs_path()}"])
+    none = sentence("none; `acus pacs add NAME` writes {file}", file=pacs_path())
+    return Answer(facts, lines or [none])
 
 
 @app.command()
@@ -97,7 +99,9 @@ def add(
         ) | {"check_name": not tls_any_name}
     one = parse(given, PacsSettings, "acus pacs add")
     keep((*(other for other in configured() if other.name != name), one))
-    words = f"{name} is configured; acus pacs echo --pacs {name} asks whether it is there"
+    words = sentence(
+        "{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there", name=name
+    )
     return Answer({"servers": [each.model_dump() for each in configured()]}, [words])
 
 
@@ -109,7 +113,7 @@ def remove(name: Annotated[str, typer.Argument(help="Which.")]) -> Answer:
     gone = chosen(name)
     keep(tuple(one for one in configured() if one != gone))
     facts = {"servers": [each.model_dump() for each in configured()]}
-    return Answer(facts, [f"{name} is forgotten"])
+    return Answer(facts, [sentence("{name} is forgotten", name=name)])
 
 
 @app.command()
@@ -120,7 +124,7 @@ def echo(pacs: Server = None) -> Answer:
 
     settings = chosen(pacs)
     seconds = Pacs(settings).echo()
-    words = f"{settings.name} answers in {1e3 * seconds:.1f} ms"
+    words = sentence("{name} answers in {time:.1f} ms", name=settings.name, time=1e3 * seconds)
     return Answer({"name": settings.name, "seconds": seconds}, [words])
 
 
@@ -148,7 +152,9 @@ def find(
     studies = client.find_studies(query)
     found = [series for one in studies for series in client.find_series(one, modality)]
     lines = [_line(one, names) for one in found]
-    return Answer({"series": [_series(one) for one in found]}, lines or ["nothing matches"])
+    return Answer(
+        {"series": [_series(one) for one in found]}, lines or [sentence("nothing matches")]
+    )
 
 
 @app.command()

@@ -9,6 +9,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.tracking.pen.body import PenProfile
@@ -56,12 +57,16 @@ def print_pen(
 
     profile = load_pen(pen) if edge is None else load_pen(pen).resized(edge)
     write_pen(out, profile, paper_named(paper))
-    words = "print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)"
+    words = sentence("print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)")
     return Answer({"files": [out]}, shown="wrote {files}: " + words)
 
 
 def _tip(pen: PenProfile) -> str:
-    return "tip measured" if pen.tip.calibrated else "tip by the drawing: `acus pen calibrate`"
+    return (
+        sentence("tip measured")
+        if pen.tip.calibrated
+        else sentence("tip by the drawing: `acus pen calibrate`")
+    )
 
 
 @app.command("calibrate")
@@ -100,10 +105,14 @@ def calibrate(
     def tell(text: str) -> None:
         typer.echo(text, err=True)
 
-    tell("stand the tip in a dimple on the sheet and rock the pen to every side …")
+    tell(sentence("stand the tip in a dimple on the sheet and rock the pen to every side …"))
     found = calibrate_pen(settings, seconds, tell)
     if roll is not None:
-        tell("now lay the pen into a groove and roll it about itself by a quarter turn or more …")
+        tell(
+            sentence(
+                "now lay the pen into a groove and roll it about itself by a quarter turn or more …"
+            )
+        )
         found = measure_shaft(with_source(settings, roll), found, seconds, tell)
     path = save_pen(found.pen, settings.kept_name)
     save_settings(settings)

@@ -9,6 +9,8 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor, secret
 from app.commands.shown import Each
+from app.commands.tongue import local, template
+from app.core.messages import counted, joined, listed, sentence
 
 Pseudonym = Annotated[
     str,
@@ -59,7 +61,7 @@ def list_(
         "instructor": people.has_instructor(),
     }
     row = "{pseudonym:24} {groups:24} " + ("{name}" if names else "{key}")
-    none = "no students yet: `acus people add` or `acus people roster`"
+    none = template("no students yet: `acus people add` or `acus people roster`")
     return Answer(facts, shown=Each("students", row, none))
 
 
@@ -77,7 +79,7 @@ def add(
     instructor(people)
     person, pin = people.add(RosterLine(pseudonym, name, pin_, tuple(group or ())))
     facts = {"pseudonym": person.pseudonym, "key": person.key, "pin": pin}
-    return Answer(facts, shown="{pseudonym} was added; PIN {pin}")
+    return Answer(facts, shown=template("{pseudonym} was added; PIN {pin}"))
 
 
 def roster(
@@ -100,7 +102,7 @@ def roster(
     lines, errors = roster_in(file)
     if errors and not partly:
         facts = {"added": [], "updated": [], "pins": {}, "errors": errors}
-        return Answer(facts, yes=False, shown=(Each("errors"), "nothing was taken"))
+        return Answer(facts, yes=False, shown=(Each("errors"), template("nothing was taken")))
     done = people.take_roster(lines, partly)
     every = [*errors, *done.errors]
     facts = {
@@ -109,7 +111,7 @@ def roster(
         "pins": dict(done.pins),
         "errors": every,
     }
-    many = "{added:#1 student|# students} added, {updated:#} updated"
+    many = template("{added:#1 student|# students} added, {updated:#} updated")
     shown = (Each("errors"), many, Each("pins", "{key:24} PIN {value}"))
     return Answer(facts, yes=not every, shown=shown)
 
@@ -124,7 +126,7 @@ def pin(
     people = People()
     instructor(people)
     people.set_pin(pseudonym, new)
-    return Answer({"pseudonym": pseudonym}, shown="{pseudonym} has a new PIN")
+    return Answer({"pseudonym": pseudonym}, shown=template("{pseudonym} has a new PIN"))
 
 
 def erase(
@@ -147,7 +149,9 @@ def erase(
     instructor(people)
     found = erase_person(pseudonym, records_folder(folder), records, people)
     facts = {"pseudonym": pseudonym, "records": found.deleted, "anonymous": found.anonymous}
-    shown = "{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}"
+    shown = template(
+        "{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}"
+    )
     return Answer(facts, shown=shown)
 
 
@@ -165,25 +169,27 @@ def set_instructor(
 
     people = People()
     if recover:
-        key = typer.prompt("Recovery key", err=True)
+        key = typer.prompt(local(sentence("Recovery key")), err=True)
         people.recover(key, _new_password())
-        return Answer({"recovery_key": None}, ["the password was changed"])
+        return Answer({"recovery_key": None}, [sentence("the password was changed")])
     if people.has_instructor():
-        old = secret("Password now")
+        old = secret(sentence("Password now"))
         recovery = people.change_password(old, _new_password())
-        lines = ["the password was changed"]
+        lines = [sentence("the password was changed")]
         if not recovery:
             return Answer({"recovery_key": None}, lines)
-        lines.append("the recovery key that was printed before is worth nothing any more")
+        lines.append(sentence("the recovery key that was printed before is worth nothing any more"))
     else:
         recovery, lines = people.set_instructor(_new_password()), []
     return Answer(
         {"recovery_key": recovery},
         [
             *lines,
-            f"recovery key: {recovery}",
-            "Print it and lock it away: it sets a new password, and opens the station's key in a "
-            "backup. It is kept nowhere.",
+            sentence("recovery key: {key}", key=recovery),
+            sentence(
+                "Print it and lock it away: it sets a new password, and opens the station's key in "
+                "a backup. It is kept nowhere."
+            ),
         ],
     )
 
@@ -244,8 +250,12 @@ def list_courses() -> Answer:
         "courses": [course.document() for course in found],
         "broken": broken,
     }
-    listed = Each("courses", "{id:24} {title}: {items:?{items:#}|0} exercises")
-    shown = (listed, Each("broken", "✖ {}")) if found or broken else "no courses in {folder}"
+    row = template("{id:24} {title}: {items:#1 exercise|# exercises}")
+    shown = (
+        (Each("courses", row), Each("broken", "✖ {}"))
+        if found or broken
+        else template("no courses in {folder}")
+    )
     return Answer(facts, yes=not broken, shown=shown)
 
 
@@ -259,15 +269,22 @@ def show_course(name: CourseId) -> Answer:
     instructor()
     course = find_course(name)
     problems = pinned_problems(course)
-    lines = [f"{course.title} ({', '.join(course.groups) or 'everybody'})"]
+    groups = listed(course.groups) if course.groups else sentence("everybody")
+    lines: list[str] = [sentence("{title} ({groups})", title=course.title, groups=groups)]
     for item in course.items:
-        many = f", {item.attempts} attempts" if item.attempts else ""
-        opens = f", from {item.opens}" if item.opens else ""
-        closes = f", until {item.closes}" if item.closes else ""
-        lines.append(
-            f"  {item.exercise} (version {item.version}): {item.purpose.value}{many}{opens}{closes}"
+        more = [
+            counted(", {n} attempt", ", {n} attempts", item.attempts) if item.attempts else "",
+            sentence(", from {date}", date=item.opens) if item.opens else "",
+            sentence(", until {date}", date=item.closes) if item.closes else "",
+        ]
+        line = sentence(
+            "  {exercise} (version {version}): {purpose}",
+            exercise=item.exercise,
+            version=item.version,
+            purpose=item.purpose.value,
         )
-    lines += [f"✖ {problem}" for problem in problems]
+        lines.append(joined("", (line, *more)))
+    lines += [joined(" ", ("✖", problem)) for problem in problems]
     return Answer(course.document() | {"problems": problems}, lines, yes=not problems)
 
 
@@ -284,14 +301,19 @@ def save_course(
     known = newest_versions()
     course = read_course(file).pinned(known)
     problems = pinned_problems(course)
-    lines = [f"✖ {problem}" for problem in problems]
+    lines: list[str] = [joined(" ", ("✖", problem)) for problem in problems]
     if any(item.exercise not in known for item in course.items):
-        lines.append(f"{course.title} was not saved: correct these, or import the exercises first")
+        lines.append(
+            sentence(
+                "{title} was not saved: correct these, or import the exercises first",
+                title=course.title,
+            )
+        )
         return Answer({"files": [], "problems": problems}, lines, yes=False)
     path = course.save()
-    lines.insert(0, f"{course.title} saved: {path}")
+    lines.insert(0, sentence("{title} saved: {path}", title=course.title, path=path))
     return Answer({"files": [path], "problems": problems}, lines, yes=not problems)
 
 
 def _new_password() -> str:
-    return secret("New password", confirm=True)
+    return secret(sentence("New password"), confirm=True)

@@ -6,6 +6,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 app = Commands(
     help="Your own laws, effects, metrics, studies, machines. They run with all your rights: take "
@@ -46,7 +47,7 @@ def list_plugins() -> Answer:
     fine = not any(row["refused"] for row in rows)
     folders = {k: os.pathsep.join(map(str, places)) for k, places in plugin_folders().items()}
     none = (
-        "no files of your own yet; save them in these folders (make what is missing):",
+        sentence("no files of your own yet; save them in these folders (make what is missing):"),
         Each("folders", "  {key}: {value}"),
     )
     row = "{refused:?✖|✔} {kind} {name}: {refused:?refused: {refused}|{title}}"

@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.commands.tongue import template
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
@@ -90,7 +91,9 @@ def list_checks() -> Answer:
         }
         for record in Registrations.own().records()
     ]
-    row = "{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}"
+    row = template(
+        "{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}"
+    )
     none = [] if rows else [f"no registration checks in {Registrations.own().folder}"]
     return Answer({"checks": rows}, none, shown=Each("checks", row))
 

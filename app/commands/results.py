@@ -1,7 +1,7 @@
 """`acus results`: who stands where, and tables that leave."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -10,7 +10,8 @@ from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
 from app.commands.shown import Each
-from app.core.messages import sentence
+from app.commands.tongue import template
+from app.core.messages import Sentence, counted, joined, sentence
 
 if TYPE_CHECKING:
     from app.exchange.results import Results
@@ -57,18 +58,10 @@ def board(
     instructor()
     found, _, _ = _board(course, group, folder)
     rows = board_rows(found)
-    lines = [
-        f"{row['pseudonym']:20} {row['exercise']:24} "
-        + (
-            f"best {row['best']:3.0f}, last {row['last']:3.0f}, {_trend(row['trend'])}, "
-            f"{row['attempts']} attempts, {row['since_s'] / 86400.0:.1f} days ago"
-            if row["attempts"]
-            else "-"
-        )
-        + (f" ({row['others']} not counted)" if row["others"] else "")
-        for row in rows
-    ]
-    return Answer({"cells": rows}, lines or ["nobody and nothing to show: add students first"])
+    lines = [joined("", (f"{row['pseudonym']:20} {row['exercise']:24} ", _cell(row)))
+             for row in rows]  # fmt: skip
+    nothing = sentence("nobody and nothing to show: add students first")
+    return Answer({"cells": rows}, lines or [nothing])
 
 
 def curve(
@@ -98,8 +91,13 @@ def curve(
             for p in points
         ],
     }
-    row = "{started}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}"
-    none = [] if points else [f"{pseudonym} has no attempt at {exercise} that counts"]
+    row = template("{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}")
+    nothing = sentence(
+        "{pseudonym} has no attempt at {exercise} that counts",
+        pseudonym=pseudonym,
+        exercise=exercise,
+    )
+    none = [] if points else [nothing]
     return Answer(facts, none, shown=Each("points", row))
 
 
@@ -153,8 +151,11 @@ def export(
             lambda progress: results_text(results, ResultsFormat(form), semicolons, progress)
         )
         write_results(out, text)
+    shown_counts = template(
+        "{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}"
+    )
     facts = {"files": [out], "attempts": len(attempts), "students": len(found.students)}
-    return Answer(facts, shown="{attempts} attempts of {students} students written to {files}")
+    return Answer(facts, shown=shown_counts)
 
 
 def _write_report(results: "Results", out: Path, student: str, course: str, group: str) -> None:
@@ -194,5 +195,20 @@ def _board(
     return found, attempts, people
 
 
-def _trend(trend: float | None) -> str:
-    return "no trend yet" if trend is None else f"{trend:+.1f} a time"
+def _cell(row: dict[str, Any]) -> Sentence:
+    """Return what a student did at one exercise."""
+    points: str = "-"
+    if row["attempts"]:
+        trend = row["trend"]
+        points = sentence(
+            "best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago",
+            best=row["best"],
+            last=row["last"],
+            trend=sentence("no trend yet")
+            if trend is None
+            else sentence("{change:+.1f} a time", change=trend),
+            attempts=counted("{n} attempt", "{n} attempts", row["attempts"]),
+            days=row["since_s"] / 86400.0,
+        )
+    others = sentence(" ({others} not counted)", others=row["others"]) if row["others"] else ""
+    return joined("", (points, others))

@@ -1,6 +1,7 @@
 """`acus session`: recorded attempts."""
 
 from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -9,8 +10,9 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import PASSWORD, instructor, see
-from app.core.messages import sentence
-from app.core.words import counted, printable
+from app.commands.tongue import cell, known, language, local, tell, template
+from app.core.messages import counted, joined, sentence
+from app.core.words import printable
 
 Id = Annotated[
     str,
@@ -55,7 +57,7 @@ def tell_folder() -> None:
     """Say where attempts are kept, and which lie in the source tree."""
     from app.core import paths
 
-    typer.echo(f"attempts are kept in {paths.sessions()}")
+    tell(sentence("attempts are kept in {folder}", folder=paths.sessions()))
     tell_elsewhere()
 
 
@@ -66,7 +68,7 @@ def tell_elsewhere() -> None:
 
     found = elsewhere(paths.sessions())
     if found is not None:
-        typer.echo(found.words, err=True)
+        tell(found.words, err=True)
 
 
 def list_(folder: FolderOption = None) -> Answer:
@@ -89,10 +91,15 @@ def list_(folder: FolderOption = None) -> Answer:
         "sessions": [s.document() for s in summaries],
         "hidden": hidden,
     }
-    students = counted(hidden, "1 attempt of a student is", f"{hidden} attempts of students are")
-    note = f"{students} for the instructor: {PASSWORD} holds the password"
+    note = counted(
+        "{n} attempt of a student is for the instructor: {variable} holds the password",
+        "{n} attempts of students are for the instructor: {variable} holds the password",
+        hidden,
+        variable=PASSWORD,
+    )
     if not summaries:
-        return Answer(facts, [note if hidden else f"no sessions in {place}"])
+        none = sentence("no sessions in {folder}", folder=place)
+        return Answer(facts, [note if hidden else none])
     return Answer(facts, lambda: _print_table(summaries, note if hidden else ""))
 
 
@@ -139,7 +146,10 @@ def replay(
     report, found = replay_recording(recording), verified(recording)
     return Answer(
         report.document() | {"score": found.document()},
-        [*report.sentences(), *(f"score: {sentence}" for sentence in found.sentences())],
+        [
+            *report.sentences(),
+            *(sentence("score: {verdict}", verdict=line) for line in found.sentences()),
+        ],
         yes=report.identical and (found.confirmed or not found.same_rules),
     )
 
@@ -174,11 +184,17 @@ def verify(
         "admitted": admitted.why if admitted is not None and verdict == Signed.ADMITTED else "",
         "index": index,
     }
-    lines = [*found.sentences(), f"signature: {signed.sentence()}"]
-    lines += [f"admitted by the instructor: {facts['admitted']}"] if facts["admitted"] else []
+    lines = [*found.sentences(), sentence("signature: {verdict}", verdict=signed.sentence())]
+    if facts["admitted"]:
+        lines.append(sentence("admitted by the instructor: {reason}", reason=facts["admitted"]))
     if (kept := cached(path)) is not None and not kept.intact:
-        lines.append(f"{sidecar(path).name} is not sealed by this station: lists read the record")
-    lines += [f"the index was altered: {problem}" for problem in index]
+        lines.append(
+            sentence(
+                "{file} is not sealed by this station: lists read the record",
+                file=sidecar(path).name,
+            )
+        )
+    lines += [sentence("the index was altered: {problem}", problem=each) for each in index]
     return Answer(
         found.document() | facts,
         lines,
@@ -206,8 +222,9 @@ def compare(
         "reasons": list(reasons),
         "sessions": [summary.document() for summary in pair],
     }
-    lines = [f"{summary.id}  {_total(summary.score, summary.signature)}" for summary in pair]
-    lines += [f"not comparable: {reason}" for reason in reasons] or ["comparable"]
+    lines = [joined("  ", (each.id, _total(each.score, each.signature))) for each in pair]
+    apart = [sentence("not comparable: {reason}", reason=reason) for reason in reasons]
+    lines += apart or [sentence("comparable")]
     return Answer(facts, lines, yes=not reasons)
 
 
@@ -217,7 +234,7 @@ def delete(session_id: Id, folder: FolderOption = None) -> Answer:
 
     instructor()
     path = store.delete(_folder(folder), session_id)
-    shown = "{id} deleted: `acus session restore {id}` brings it back"
+    shown = template("{id} deleted: `acus session restore {id}` brings it back")
     return Answer({"id": path.stem, "file": path}, shown=shown)
 
 
@@ -230,7 +247,7 @@ def restore(
 
     instructor()
     path = store.restore(_folder(folder), session_id)
-    return Answer({"id": path.stem, "file": path}, shown="{id} is back")
+    return Answer({"id": path.stem, "file": path}, shown=template("{id} is back"))
 
 
 def recover(
@@ -256,8 +273,8 @@ def recover(
         cut = interrupted.is_cut_off(find(place, session_id))
         path = interrupted.recover(place, session_id)
         facts = {"id": path.stem, "file": path, "interrupted": []}
-        closed = "{id} was closed as it stands: listed as unfinished"
-        whole = "{id} has its end: there was nothing to recover, and nothing was changed"
+        closed = template("{id} was closed as it stands: listed as unfinished")
+        whole = template("{id} has its end: there was nothing to recover, and nothing was changed")
         return Answer(facts, shown=closed if cut else whole)
     here = visitor()
     found = [
@@ -265,12 +282,17 @@ def recover(
         for one in interrupted.interrupted(place)[0]
     ]
     lines = [
-        f"{one.id}  {one.student}  {one.exercise_id}  {one.duration:.0f} s: `acus session recover "
-        f"{one.id}` keeps it"
+        sentence(
+            "{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` keeps it",
+            id=one.id,
+            student=one.student,
+            exercise=one.exercise_id,
+            duration=one.duration,
+        )
         for one in found
     ]
     facts = {"id": "", "file": None, "interrupted": [one.document() for one in found]}
-    return Answer(facts, lines or [f"no attempt was cut off in {place}"])
+    return Answer(facts, lines or [sentence("no attempt was cut off in {folder}", folder=place)])
 
 
 def gather() -> Answer:
@@ -288,15 +310,15 @@ def gather() -> Answer:
     found = elsewhere(folder)
     if found is None:
         facts = {"folder": folder, "from": None, "gathered": 0, "left": 0}
-        return Answer(facts, shown="nothing to do")
+        return Answer(facts, shown=template("nothing to do"))
     count = bring(found, folder, People())
     left = len(found.records) - count
     facts = {"folder": folder, "from": found.folder, "gathered": count, "left": left}
-    stay = (
+    stay = template(
         "{left:#1 stays|# stay} there, not signed by this station: "
         "`acus session list --folder {from}` lists them"
     )
-    brought = "{gathered:#1 attempt|# attempts} brought from {from} to {folder}"
+    brought = template("{gathered:#1 attempt|# attempts} brought from {from} to {folder}")
     return Answer(facts, shown=(brought, stay if left else ""))
 
 
@@ -320,7 +342,9 @@ def export(
     if out.suffix.lower() != ".csv":
         raise typer.BadParameter(sentence("--out {out}: only .csv can be written", out=out))
     write_csv(out, text)
-    return Answer({"files": [out], "rows": rows}, shown="{rows} rows written to {files}")
+    return Answer(
+        {"files": [out], "rows": rows}, shown=template("{rows:#1 row|# rows} written to {files}")
+    )
 
 
 def _folder(folder: Path | None) -> Path:
@@ -384,20 +408,27 @@ def _print_table(summaries: list[Any], note: str) -> None:
 
     table = Table(box=None, pad_edge=False)
     table.add_column("id", no_wrap=True, min_width=max(len(s.id) for s in summaries))
-    for title in ("student", "exercise", "state", "duration", "score", "signature"):
-        table.add_column(title, no_wrap=True)
+    for title in (
+        sentence("student"),
+        sentence("exercise"),
+        sentence("state"),
+        sentence("duration"),
+        sentence("score"),
+        sentence("signature"),
+    ):
+        table.add_column(local(title), no_wrap=True)
     table.add_column("", min_width=12)
     for s in summaries:
         whose = _nobodys(s.conditions)
-        remark = "; ".join(filter(None, (whose, s.reason or "; ".join(s.problems))))
+        remark = joined("; ", filter(None, (whose, s.reason or joined("; ", s.problems))))
         cells = (
             s.id,
             s.student,
             s.exercise_id,
-            s.state,
+            _state(s.state),
             f"{s.duration:.0f} s",
             _total(s.score, s.signature),
-            s.signature,
+            known(s.signature),
             remark,
         )
         table.add_row(*(_plain(cell) for cell in cells))
@@ -406,63 +437,88 @@ def _print_table(summaries: list[Any], note: str) -> None:
         console.width = console.measure(table, options=console.options.update(width=10**4)).maximum
     console.print(table)
     if note:
-        typer.echo(note)
+        tell(note)
 
 
 def _plain(text: str) -> Any:
     """Text that no markup is read from: pseudonyms and reasons are other people's words."""
     from rich.text import Text
 
-    return Text(printable(text))
+    return Text(printable(local(text)))
 
 
 def _total(score: Any, signature: str) -> str:
     if signature == "altered":
-        return "— altered"
+        return sentence("— altered")
     if not score:
         return "-"
     if score.get("total") is None:
-        return "void"
-    return f"{score['total']:.0f} %{' passed' if score.get('passed') else ''}"
+        return sentence("void")
+    if score.get("passed"):
+        return sentence("{total:.0f} % passed", total=score["total"])
+    return sentence("{total:.0f} %", total=score["total"])
 
 
 def _nobodys(conditions: Any) -> str:
     """Say that an attempt is nobody's, and what held the needle; empty for a person's."""
     if conditions is None or conditions.by_person:
         return ""
-    return f"no student's attempt: {conditions.hands or 'script'}"
+    return sentence("no student's attempt: {hands}", hands=conditions.hands or "script")
 
 
 def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
     from app.scoring.rows import shown_sd
 
-    keys = ("id", "started", "student", "state", "reason", "duration_s", "scans", "file")
-    lines = [f"{key:12} {document[key]}" for key in keys]
-    lines.append(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
-    lines.append(
-        f"{'hand':12} {document['metadata'].get('trainee', {}).get('hand', 'not recorded')}"
+    score, metadata = document["score"] or {}, document["metadata"]
+    radius, exercise = document["tip_radius_95_mm"], document["exercise"]
+    hand = metadata.get("trainee", {}).get("hand")
+    certainty = sentence("± {radius:.1f} mm (95 %), median", radius=radius or 0.0)
+    heads = (
+        ("id", document["id"]),
+        (sentence("started"), datetime.fromisoformat(document["started"]).astimezone()),
+        (sentence("student"), document["student"]),
+        (sentence("state"), _state(document["state"])),
+        (sentence("reason"), known(document["reason"])),
+        (sentence("duration"), sentence("{seconds:.1f} s", seconds=document["duration_s"])),
+        (sentence("scans"), document["scans"]),
+        (sentence("file"), document["file"]),
+        (sentence("exercise"), _titled(exercise)),
+        (sentence("hand"), hand or sentence("not recorded")),
+        (sentence("whose"), nobodys or None),
+        (sentence("calibration"), document["calibration"] or None),
+        (sentence("tip known to"), None if radius is None else certainty),
+        (sentence("score"), _total(document["score"], document.get("signature", ""))),
+        (sentence("void"), known(score.get("void_reason") or "") or None),
     )
-    if nobodys:
-        lines.append(f"{'whose':12} {nobodys}")
-    if document["calibration"]:
-        lines.append(f"{'calibration':12} {document['calibration']}")
-    if document["tip_radius_95_mm"] is not None:
-        lines.append(f"{'tip known to':12} ± {document['tip_radius_95_mm']:.1f} mm (95 %), median")
-    lines.append(f"{'score':12} {_total(document['score'], document.get('signature', ''))}")
-    score = document["score"] or {}
-    if score.get("void_reason"):
-        lines.append(f"{'void':12} {score['void_reason']}")
+    lines = [_head(name, value) for name, value in heads if value is not None]
     for row in score.get("rows", []):
         sd = shown_sd(row["name"], row["value"], row.get("sd"))
         unsure = f" ± {sd:.1g}" if sd else ""
         value = "-" if row["value"] is None else f"{row['value']:.4g}{unsure} {row['unit']}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
-        lines.append(f"  {row['label']:32} {value:>20}  {band or row['note'] or ''}")
+        label = known(row["label"])
+        comma = value.replace(".", language().number(0.5, ".1f")[1])
+        lines.append(f"  {label:32} {comma:>20}  {known(band or row['note'] or '')}")
     for risk in document["published_risks"]:
         source = f" ({risk['source']})" if risk["source"] else ""
-        lines.append(f"{'published':12} {risk['statement']}{source}")
+        lines.append(_head(sentence("published"), joined("", (risk["statement"], source))))
     for event in document["events"]:
-        lines.append(f"  {event['time_s']:12.3f} s  {event['message']}")
-    for problem in document["problems"]:
-        lines.append(f"{'problem':12} {problem}")
-    return [*lines, document["note"]]
+        time = language().number(event["time_s"], "12.3f")
+        lines.append(f"  {time} s  {known(event['message'])}")
+    lines += [_head(sentence("problem"), problem) for problem in document["problems"]]
+    return [*lines, known(document["note"])]
+
+
+def _state(state: str) -> str:
+    """Return the word for a recorded state; the window has it with a capital."""
+    word = known(state.capitalize())
+    return state if word == state.capitalize() else word
+
+
+def _head(name: str, value: Any) -> str:
+    """Return a line of a table of two columns in the reader's language."""
+    return f"{local(name):12} {cell(value)}".rstrip()
+
+
+def _titled(exercise: dict[str, Any]) -> str:
+    return f"{known(exercise['title'] or '')} ({exercise['id']})"

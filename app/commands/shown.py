@@ -1,11 +1,14 @@
 """Lines for people out of the facts of an answer, by templates.
 
-A template is a text with fields in braces, as `str.format` has them; a key within a key, or the
+A template is a text, marked by `template("…")` where it holds words, and translated before it is
+filled, with fields in braces, as `str.format` has them; a key within a key, or the
 place in a list, comes after a dot: `{ct.digest:.12}`, `{size.0}`. Beside Python's formats:
 
 - `{share:.0%}`: a share in per cent, with a blank before the sign;
 - `{groups:24}`: what a list holds, between commas; `-` where it is empty;
 - `{pins:#}`: the number of things; `{pins:#1 PIN|# PINs}` in words, with a third text for none;
+- `{title:~}`: a text that ships with the program, in the reader's language;
+- `{started:@}`: a moment in ISO 8601, as the reader's language writes dates;
 - `{shipped:?yes|no}`: the one text or the other, each with fields of its own. Nothing is a key that
   is not there, None, False, an empty text or list; the number 0 is something.
 """
@@ -14,8 +17,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from string import Formatter
 from typing import Any, TypeAlias
+
+from app.commands.tongue import language
 
 Shown: TypeAlias = "str | Each | Sequence[str | Each]"
 """A template of a line, rows, or several of them."""
@@ -45,7 +51,7 @@ def lines(shown: Shown, facts: Facts) -> Iterator[str]:
         KeyError: if the facts lack a key.
     """
     if isinstance(shown, str):
-        if line := _text(shown, facts):
+        if line := _text(language().text(shown), facts):
             yield line
     elif isinstance(shown, Each):
         entries = _entries(_value(shown.key, facts))
@@ -88,11 +94,20 @@ def _counted(value: Any, single: str, several: str = "#", none: str | None = Non
 
 
 def _formatted(value: Any, form: str) -> str:
+    here = language()
     if isinstance(value, (list, tuple)):
         value = ", ".join(map(str, value)) or "-"
+    if form == "~":
+        return here.text(value) if value else ""
+    if form == "@":
+        return here.moment(datetime.fromisoformat(value).astimezone())
     if form.endswith("%"):
-        return f"{100.0 * value:{form[:-1]}f} %"
-    return format(value, form)
+        return f"{here.number(100.0 * value, f'{form[:-1]}f')} %"
+    return (
+        here.number(value, form)
+        if isinstance(value, float)
+        else format(here.translated(value) if isinstance(value, str) else value, form)
+    )
 
 
 def _alternatives(form: str) -> list[str]:

@@ -7,6 +7,8 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.commands.tongue import local, template
+from app.core.messages import sentence
 
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
@@ -54,8 +56,8 @@ def status(folder: FolderOption = None) -> Answer:
         "deleted": len(records(place / TRASH)),
     }
     shown = (
-        "{attempts} attempts in {folder}, {deleted} deleted",
-        "index: {index:?{index}|in memory, the folder can only be read}",
+        template("{attempts} attempts in {folder}, {deleted} deleted"),
+        template("index: {index:?{index}|in memory, the folder can only be read}"),
     )
     lines = [
         "signatures: " + ", ".join(f"{verdicts[v.value]} {v.value}" for v in words),
@@ -73,7 +75,9 @@ def rebuild(folder: FolderOption = None) -> Answer:
     index = Index(records_folder(folder))
     done = with_progress(index.rebuild)
     facts = {"folder": index.folder, "index": index.path, "attempts": done.total, "gone": done.gone}
-    return Answer(facts, shown="{attempts} attempts indexed, {gone} of the old index are gone")
+    return Answer(
+        facts, shown=template("{attempts} attempts indexed, {gone} of the old index are gone")
+    )
 
 
 def backup(
@@ -100,18 +104,22 @@ def backup(
     lines = []
     if wrapped and not key:
         lines.append(
-            "the station's key in it was sealed by an earlier build, and nothing opens it any "
-            "more: change the password (`acus people instructor`), which prints a new recovery "
-            "key, and make the backup again"
+            sentence(
+                "the station's key in it was sealed by an earlier build, and nothing opens it any "
+                "more: change the password (`acus people instructor`), which prints a new recovery "
+                "key, and make the backup again"
+            )
         )
     elif not key:
         lines.append(
-            "without the station's key: set a password first (`acus people instructor`) if its "
-            "records are to be verified on another computer"
+            sentence(
+                "without the station's key: set a password first (`acus people instructor`) if its "
+                "records are to be verified on another computer"
+            )
         )
     facts = {"files": [out], "records": count, "key": key, "left_out": archive.left_out()}
-    written = "{records:#1 record|# records} written to {files}"
-    return Answer(facts, lines, shown=(written, Each("left_out", "not in it: {}")))
+    written = template("{records:#1 record|# records} written to {files}")
+    return Answer(facts, lines, shown=(written, Each("left_out", template("not in it: {}"))))
 
 
 def restore(
@@ -137,7 +145,7 @@ def restore(
 
     people, place = People(), records_folder(folder)
     instructor(people)
-    recovery = typer.prompt("Recovery key", err=True) if key else ""
+    recovery = typer.prompt(local(sentence("Recovery key")), err=True) if key else ""
     done = with_progress(
         lambda progress: archive.restore_backup(
             source, place, recovery, people_too, people, progress
@@ -153,11 +161,11 @@ def restore(
         "not_taken": list(done.not_taken),
     }
     shown = (
-        "{records} records restored, {kept} were here already",
+        template("{records} records restored, {kept} were here already"),
         "people: {people}; station's key: {key}",
-        Each("different", "✖ {} is another record here: the one here was kept"),
-        "{erased} records left out: their person was erased" if done.erased else "",
-        Each("not_taken", "✖ not taken: {}"),
+        Each("different", template("✖ {} is another record here: the one here was kept")),
+        template("{erased} records left out: their person was erased") if done.erased else "",
+        Each("not_taken", template("✖ not taken: {}")),
     )
     return Answer(facts, yes=not done.different and not done.not_taken, shown=shown)
 
@@ -173,4 +181,6 @@ def empty(
 
     instructor()
     gone = empty_trash(records_folder(folder), days)
-    return Answer({"deleted": gone}, shown="{deleted:#1 attempt|# attempts} deleted for good")
+    return Answer(
+        {"deleted": gone}, shown=template("{deleted:#1 attempt|# attempts} deleted for good")
+    )

@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.imaging.structures.structure import StructureSet
@@ -36,7 +37,7 @@ def list_structures(files: Files, ct: Folder, series: Uid = None) -> Answer:
     lines = []
     for one in structures:
         x, y, z = one.centre_mm
-        warn = f"warns within {one.warn_mm:g} mm" if one.warn_mm else "never warns"
+        warn = f"warns within {one.warn_mm:g} mm" if one.warn_mm else sentence("never warns")
         place = f"centre LPS {x:.1f} {y:.1f} {z:.1f} mm"
         lines.append(f"{one.name}  {one.kind}  {one.millilitres:.2f} ml  {place}  {warn}")
     return Answer(_document(structures), lines + _notes(structures))

@@ -7,6 +7,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer
+from app.commands.tongue import tell
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
@@ -107,13 +108,13 @@ def study(
     if write and isinstance(result, Result):
         from app.studies.kept import keep, place
 
-        typer.echo(f"wrote {keep(result, repeats, place(name))}", err=True)
+        tell(sentence("wrote {file}", file=keep(result, repeats, place(name))), err=True)
     data = document(result) if isinstance(result, Result) else survey_document(result)
     if out is not None:
         from app.studies.files import write as write_files
 
         for path in write_files(result, out, repeats, quick=quick):
-            typer.echo(f"wrote {path}", err=True)
+            tell(sentence("wrote {file}", file=path), err=True)
     console = open_console()
     if not console.is_terminal:  # a pipe or a file has no edge at which figures must be cut
         console = open_console(width=max(console.width, PIPE_WIDTH))
@@ -179,8 +180,8 @@ def _all(out: Path | None, repeats: int, fresh: bool, write: bool, quick: bool) 
     )
     broken = [done for done in found if done.outcome is StudyOutcome.BROKEN]
     rows = [{"study": d.name, "outcome": d.outcome.value, "text": d.text} for d in found]
-    lines = [f"{row['study']:24} {row['outcome']:10} {row['text']}" for row in rows]
-    lines.append(f"tables and pictures are in {where}")
+    lines: list[str] = [f"{row['study']:24} {row['outcome']:10} {row['text']}" for row in rows]
+    lines.append(sentence("tables and pictures are in {folder}", folder=where))
     return Answer({"studies": rows, "folder": str(where)}, lines, crashed=bool(broken))
 
 

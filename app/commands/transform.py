@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.tongue import template
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 
@@ -55,7 +56,7 @@ def export(
     placement = Placement(PatientOrientation(orientation), (x, y, z))
     fulcrum = load_profile(device).fulcrum
     write_tfm(out, placement.T_world_patient(read_plan(plan), fulcrum).inverse())
-    return Answer({"files": [out]}, shown="{files}: from world (robot) to patient (LPS)")
+    return Answer({"files": [out]}, shown=template("{files}: from world (robot) to patient (LPS)"))
 
 
 @app.command()

@@ -11,7 +11,7 @@ import numpy as np
 from app.compose.cameras import checked_cameras
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
-from app.core.messages import sentence
+from app.core.messages import listed, sentence
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.latency import grid_means
 from app.tracking.cameras.settings import SIDES, CameraSettings
@@ -97,7 +97,7 @@ def open_live(settings: CameraSettings, side: str) -> LiveReader:
             sentence(
                 "there is no {side!r} camera; there are {sides}",
                 side=side,
-                sides=" and ".join(SIDES),
+                sides=listed(SIDES),
             )
         )
     clock, index = SystemClock(), SIDES.index(side)

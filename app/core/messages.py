@@ -1,20 +1,21 @@
 """Texts of the lower rooms that stay translatable: an English template and its values.
 
-Nothing here knows Qt. `pyside6-lupdate -tr-function-alias tr+=sentence` finds the templates, and
-`app/views/kit/text.translated` shows them in the user's language. As a text, a sentence is just the
-English one: it is compared, searched, logged and written to JSON like any other.
+Nothing here knows Qt. `tools.translations` collects the templates, and `core.texts.Texts` shows
+them in the user's language, in the window and on the command line. As a text, a sentence is just
+the English one: it is compared, searched, logged and written to JSON like any other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from datetime import date, datetime
 from functools import lru_cache
 from numbers import Integral, Real
 from string import Formatter
 from types import MappingProxyType
 from typing import Any
 
-_IMMUTABLE = (str, int, float, bool, type(None))
+_IMMUTABLE = (str, int, float, bool, type(None), date, datetime)
 
 
 class Formatted(str):
@@ -35,16 +36,25 @@ class Sentence(str):
     Attributes:
         template: the text with its `{names}`, as a translator sees it.
         values: what the names stand for: numbers, texts, and sentences for parts of their own.
+        single: the English text for one thing, in place of `template`; None if nothing is counted.
+        things: how many are counted; other languages choose their form by it.
     """
 
-    __slots__ = ("template", "values")
+    __slots__ = ("single", "template", "things", "values")
     template: str
     values: Mapping[str, Any]
+    single: str | None
+    things: int
 
-    def __new__(cls, template: str, values: Mapping[str, Any]) -> Sentence:
+    def __new__(
+        cls, template: str, values: Mapping[str, Any], single: str | None = None, things: int = -1
+    ) -> Sentence:
         """Fill the template now; of a value that could change only its text is remembered."""
-        text = super().__new__(cls, template.format(**values))
+        english = template if single is None or things != 1 else single
+        text = super().__new__(cls, english.format(**values))
         object.__setattr__(text, "template", template)
+        object.__setattr__(text, "single", single)
+        object.__setattr__(text, "things", things)
         object.__setattr__(text, "values", MappingProxyType(_remembered(template, values)))
         return text
 
@@ -52,7 +62,12 @@ class Sentence(str):
         raise AttributeError(name)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Sentence, (self.template, dict(self.values))
+        return Sentence, (self.template, dict(self.values), self.single, self.things)
+
+    @property
+    def pattern(self) -> str:
+        """The English text before its names are filled."""
+        return self.template if self.single is None or self.things != 1 else self.single
 
     def __add__(self, other: str) -> Sentence:
         return joined("", (self, other))
@@ -69,6 +84,30 @@ def sentence(template: str, /, **values: object) -> Sentence:
         values: by their names in the template. An exception stands for its message.
     """
     return Sentence(template, values)
+
+
+def counted(single: str, several: str, /, n: int, **values: object) -> Sentence:
+    """Return a text for people about `n` things, in the form that is right for so many.
+
+    Args:
+        single: literal template for one thing, in English.
+        several: literal template for every other number; it has the field `{n}`, and translators
+            see it alone, with as many forms as their language has.
+        n: how many.
+        values: as of `sentence`.
+    """
+    return Sentence(several, {**values, "n": n}, single, n)
+
+
+def listed(parts: Iterable[str]) -> str:
+    """Return parts as people list them: "a, b and c"; each stays a sentence of its own."""
+    *most, last = tuple(parts) or ("",)
+    if not most:
+        return last
+    items = most[0]
+    for item in most[1:]:
+        items = sentence("{items}, {next}", items=items, next=item)
+    return sentence("{items} and {last}", items=items, last=last)
 
 
 def sentence_of(error: BaseException) -> str:

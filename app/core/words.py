@@ -1,4 +1,4 @@
-"""Words that leave the program: counted, and with nothing in them that steers a terminal."""
+"""Words that leave the program: with nothing in them that steers a terminal."""
 
 import re
 
@@ -15,8 +15,3 @@ def printable(text: str) -> str:
     override lets a line read otherwise than it stands (UAX #9).
     """
     return _STEERING.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
-
-
-def counted(number: int, singular: str, plural: str) -> str:
-    """Return the words for one, or those for another number of things."""
-    return singular if number == 1 else plural

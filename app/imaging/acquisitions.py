@@ -15,7 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from app.core.messages import sentence
+from app.core.messages import listed, sentence
 from app.imaging import stack
 from app.imaging.errors import FileDamagedError
 from app.imaging.filling import filled
@@ -109,9 +109,7 @@ def _mixture(headers: Headers) -> tuple[str, ...]:
     if not names:
         return ()
     return (
-        sentence(
-            "its slices differ in {names}: neighbours may not compare", names=" and ".join(names)
-        ),
+        sentence("its slices differ in {names}: neighbours may not compare", names=listed(names)),
     )
 
 

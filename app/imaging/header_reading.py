@@ -10,7 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO, Final
 
-from app.core.messages import sentence
+from app.core.messages import listed, sentence
 from app.core.progress import Progress
 from app.imaging import elements
 from app.imaging.element_reading import PREAMBLE, NotStandardError, read_elements
@@ -313,11 +313,8 @@ def _missing(header: Elements) -> str:
         absent = [name for name in absent if name not in ("BitsStored", "HighBit")]
     if not absent:
         return ""
-    verb = "is" if len(absent) == 1 else "are"
     return sentence(
-        "{absent} {verb} missing, without which its pixels cannot be told",
-        absent=" and ".join(absent),
-        verb=verb,
+        "missing, without which its pixels cannot be told: {names}", names=listed(absent)
     )
 
 

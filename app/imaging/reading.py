@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen, read_only
-from app.core.messages import joined, sentence
+from app.core.messages import counted, joined, sentence
 from app.core.progress import Progress
-from app.core.words import counted
 from app.imaging import memory, stack
 from app.imaging.errors import (
     FileDamagedError,
@@ -266,12 +265,11 @@ def nothing_in(listing: Listing) -> str:
         )
     first = listing.ignored[0]
     count = len(listing.ignored)
-    return sentence(
-        "no DICOM series in {listing_path}: {ignored} {files} ignored "
-        "({first_path_name}: {first_reason})",
+    return counted(
+        "no DICOM series in {listing_path}: {n} file ignored ({first_path_name}: {first_reason})",
+        "no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})",
+        count,
         listing_path=listing.path,
-        ignored=count,
-        files=counted(count, "file", "files"),
         first_path_name=first.path.name,
         first_reason=first.reason,
     )

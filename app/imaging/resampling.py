@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from app.core.arrays import FloatArray, read_only
-from app.core.messages import sentence
+from app.core.messages import counted, sentence
 from app.core.progress import Progress
-from app.core.words import counted
 from app.imaging import memory, stack
 from app.imaging.errors import SeriesRefusedError, TooLargeError
 from app.imaging.filling import padding_of
@@ -246,10 +245,10 @@ def _words(series: Series, grid: stack.Stack, target: _Target, empty: int) -> tu
         )
     if empty:
         words.append(
-            sentence(
-                "{empty} {gaps} of missing slices left empty",
-                empty=empty,
-                gaps=counted(empty, "gap", "gaps"),
+            counted(
+                "{n} gap of missing slices left empty",
+                "{n} gaps of missing slices left empty",
+                empty,
             )
         )
     return tuple(words)

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from app.core.messages import sentence
+from app.core.messages import counted, sentence
 from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.acquisitions import Group
@@ -126,8 +126,13 @@ def _notes(headers: Headers, tilt_deg: float) -> list[str]:
             notes.append(sentence("direction cosines not of length one: taken as they are written"))
     behind = sum(header.pixels.behind > 0 for header in headers)
     if behind:
-        files = "1 file holds" if behind == 1 else f"{behind} files hold"
-        notes.append(sentence("{files} bytes behind the pixels, which are left out", files=files))
+        notes.append(
+            counted(
+                "{n} file holds bytes behind the pixels, which are left out",
+                "{n} files hold bytes behind the pixels, which are left out",
+                behind,
+            )
+        )
     if words := caveat(headers[0].identity.image_type):
         notes.append(words)
     return notes

@@ -13,8 +13,7 @@ from pathlib import Path
 from uuid import uuid4
 
 from app.core import paths
-from app.core.messages import sentence
-from app.core.words import counted
+from app.core.messages import counted, sentence
 from app.session.errors import SessionError
 from app.session.header import TRASH
 from app.session.journal import Journal, Step, move, removal
@@ -38,13 +37,12 @@ class Elsewhere:
     @property
     def words(self) -> str:
         """Say in one line how many lie where, and what can be done about it."""
-        count = len(self.records)
-        lie = counted(count, "1 attempt lies", f"{count} attempts lie")
-        return sentence(
-            "{lie} in {folder}, where earlier versions kept attempts: "
-            "`acus session gather` brings yours here, `acus session list --folder {folder}` "
-            "lists all",
-            lie=lie,
+        return counted(
+            "{n} attempt lies in {folder}, where earlier versions kept attempts: `acus session "
+            "gather` brings yours here, `acus session list --folder {folder}` lists all",
+            "{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session "
+            "gather` brings yours here, `acus session list --folder {folder}` lists all",
+            len(self.records),
             folder=self.folder,
         )
 

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.files import read_at_most
+from app.core.messages import joined, sentence
 from app.session.conditions import EXERCISE_FILE
 from app.session.recording import open_recording
 from app.session.sidecar import Cached, file_digest
@@ -53,7 +54,7 @@ class SignatureCheck:
 
     def sentence(self) -> str:
         """Say it in one line."""
-        return f"{self.verdict.value}: {self.why}" if self.why else self.verdict.value
+        return joined(": ", filter(None, (self.verdict.value, self.why)))
 
 
 def signature_file(path: Path) -> Path:
@@ -88,9 +89,11 @@ def judge(path: Path, stored: Cached, key: StationKey | None) -> SignatureCheck:
         return found
     with suppress(OSError):
         if not stored.is_of(path):  # signed after it was read, and looked at next time
-            return SignatureCheck(Signed.UNSIGNED, "the record was written while it was read")
+            return SignatureCheck(
+                Signed.UNSIGNED, sentence("the record was written while it was read")
+            )
     if found["record"] != stored.sha256:
-        return SignatureCheck(Signed.ALTERED, "the record is not the one that was signed")
+        return SignatureCheck(Signed.ALTERED, sentence("the record is not the one that was signed"))
     shown = _shown(stored.summary)
     other = [name for name, value in found["shown"].items() if shown.get(name) != value]
     if _rules(stored.summary) != found["rules"] and file_digest(path) == found["record"]:
@@ -98,7 +101,9 @@ def judge(path: Path, stored: Cached, key: StationKey | None) -> SignatureCheck:
         fresh = _shown(derive(open_recording(path)))
         other = [name for name in other if fresh.get(name) != shown.get(name)]
     if other:
-        return SignatureCheck(Signed.ALTERED, f"the list shows another {other[0]} than was signed")
+        return SignatureCheck(
+            Signed.ALTERED, sentence("the list shows another {key} than was signed", key=other[0])
+        )
     return SignatureCheck(Signed.VERIFIED)
 
 
@@ -117,9 +122,10 @@ def judge_whole(path: Path, key: StationKey | None) -> SignatureCheck:
     for name, word in ((SCORE_FILE, "score"), (EXERCISE_FILE, "exercise")):
         if _digest(files.get(name)) != found[word]:
             return SignatureCheck(
-                Signed.ALTERED, f"the {word} in it is not the one that was signed"
+                Signed.ALTERED,
+                sentence("the {part} in it is not the one that was signed", part=word),
             )
-    return SignatureCheck(Signed.ALTERED, "the record is not the one that was signed")
+    return SignatureCheck(Signed.ALTERED, sentence("the record is not the one that was signed"))
 
 
 def judged(path: Path, stored: Cached, key: StationKey | None) -> Summary:
@@ -141,21 +147,26 @@ def _read(path: Path, key: StationKey | None) -> dict[str, Any] | SignatureCheck
         seal = str(document.pop("hmac"))
         station, fields = str(document["station"]), (document["record"], document["shown"].items())
     except FileNotFoundError:
-        return SignatureCheck(Signed.UNSIGNED, "no signature stands beside it")
+        return SignatureCheck(Signed.UNSIGNED, sentence("no signature stands beside it"))
     except OSError as error:
-        return SignatureCheck(Signed.UNSIGNED, f"its signature cannot be read: {error.strerror}")
+        return SignatureCheck(
+            Signed.UNSIGNED,
+            sentence("its signature cannot be read: {reason}", reason=error.strerror),
+        )
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
-        return SignatureCheck(Signed.ALTERED, "its signature is damaged")
+        return SignatureCheck(Signed.ALTERED, sentence("its signature is damaged"))
     if key is None or station != key.station:
-        return SignatureCheck(Signed.UNSIGNED, f"signed by another station ({station[:16]})")
+        return SignatureCheck(
+            Signed.UNSIGNED, sentence("signed by another station ({station})", station=station[:16])
+        )
     with suppress(ValueError, TypeError, RecursionError):
         if fields and hmac.compare_digest(seal.encode(), key.seal(document).encode()):
             if document["id"] == path.stem:
                 return document
             return SignatureCheck(
-                Signed.ALTERED, "the signature beside it is that of another attempt"
+                Signed.ALTERED, sentence("the signature beside it is that of another attempt")
             )
-    return SignatureCheck(Signed.ALTERED, "its signature is not this station's")
+    return SignatureCheck(Signed.ALTERED, sentence("its signature is not this station's"))
 
 
 def _document(

@@ -13,7 +13,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from app.core.errors import AcusError
-from app.core.messages import sentence
+from app.core.messages import listed, sentence
 from app.exercises.hand_bands import HandBands, judged_by_hand
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
@@ -236,7 +236,7 @@ def _version_of(written: Score | None) -> int:
 
 
 def _names(versions: Iterable[int]) -> str:
-    return " and ".join(map(str, versions))
+    return listed(map(str, versions))
 
 
 def judged_by(
@@ -309,7 +309,7 @@ def _limits(tolerance: Tolerance | None) -> str:
 def _points(score: Score | None) -> str:
     if score is None:
         return "no score"
-    return "void" if score.total is None else f"{score.total:.0f}"
+    return sentence("void") if score.total is None else f"{score.total:.0f}"
 
 
 def _word(value: Any) -> str:

@@ -692,6 +692,38 @@
             <translation type="unfinished">die Eingabe endete vor der Routine; nichts wurde behalten</translation>
         </message>
         <message>
+            <source>places        agree within {disagreement_mm:.2f} mm</source>
+            <translation type="unfinished">Orte          stimmen auf {disagreement_mm:.2f} mm überein</translation>
+        </message>
+        <message>
+            <source>{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</source>
+            <translation type="unfinished">{key:13} steht bei {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</translation>
+        </message>
+        <message>
+            <source>residual      {rms_px:.3f} px in {pictures:#} pictures</source>
+            <translation type="unfinished">Restfehler    {rms_px:.3f} px in {pictures:#} Bildern</translation>
+        </message>
+        <message>
+            <source>{scale:?scale         {scale:.5f} ± {scale_sd:.5f} of the board's size}</source>
+            <translation type="unfinished">{scale:?Maßstab       {scale:.5f} ± {scale_sd:.5f} der Größe der Tafel}</translation>
+        </message>
+        <message>
+            <source>{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm (standard deviation per axis)}</source>
+            <translation type="unfinished">{fulcrum_sd_mm:?Drehpunkt     sicher auf ± {fulcrum_sd_mm:.2f} mm (Standardabweichung je Achse)}</translation>
+        </message>
+        <message>
+            <source>look at       {}</source>
+            <translation type="unfinished">ansehen       {}</translation>
+        </message>
+        <message>
+            <source>not used      {name}: {text}</source>
+            <translation type="unfinished">nicht genutzt {name}: {text}</translation>
+        </message>
+        <message>
+            <source>{kept:?in use from now on: {id}|not kept: add --keep to use it}</source>
+            <translation type="unfinished">{kept:?ab jetzt in Gebrauch: {id}|nicht behalten: mit --keep wird sie verwendet}</translation>
+        </message>
+        <message>
             <source>--at {place!r} is not {pose}: millimetres and degrees, e.g. -60,180,90,180,0,0</source>
             <translation type="unfinished">--at {place!r} ist nicht {pose}: Millimeter und Grad, z. B. -60,180,90,180,0,0</translation>
         </message>
@@ -702,6 +734,10 @@
         <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out nimmt das Objektiv einer Kamera; diese Bilder sind von {groups}: Geben Sie für jede einen Ordner an oder verwenden Sie `acus calibrate stereo`</translation>
+        </message>
+        <message>
+            <source>not written and not kept; --force does it all the same</source>
+            <translation type="unfinished">nicht geschrieben und nicht behalten; --force tut es trotzdem</translation>
         </message>
         <message>
             <source>name the folder of the pictures: --images DIR</source>
@@ -720,16 +756,76 @@
             <translation type="unfinished">--names {names!r} sind nicht zwei Namen, z. B. left,right</translation>
         </message>
         <message>
+            <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
+            <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm zurückgehalten|nicht an zurückgehaltenen Ansichten geprüft}  {world:?Welt|keine Welt}{found_bad:?  FÜR SCHLECHT BEFUNDEN: {found_bad}}}</translation>
+        </message>
+        <message>
+            <source>no calibrations in {folder}</source>
+            <translation type="unfinished">keine Kalibrierungen in {folder}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind}: Nur yaml und ros lassen sich schreiben</translation>
+        </message>
+        <message>
+            <source>{id} written to {files}</source>
+            <translation type="unfinished">{id} in {files} geschrieben</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
             <translation type="unfinished">--out {out}: Nur .pdf lässt sich schreiben</translation>
         </message>
         <message>
+            <source>{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}</source>
+            <translation type="unfinished">{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm auf {paper}: {file}</translation>
+        </message>
+        <message>
+            <source>{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or one with an odd and an even count of corners, does not}</source>
+            <translation type="unfinished">{ambiguous:?Hinweis: Diese Tafel sieht nach einer halben Drehung gleich aus; eine ChArUco-Tafel oder eine mit einer geraden und einer ungeraden Zahl von Ecken nicht}</translation>
+        </message>
+        <message>
+            <source>print at 100 %, not fitted to the page, and measure the line of 100 mm</source>
+            <translation type="unfinished">bei 100 % drucken, nicht an die Seite anpassen, und die Linie von 100 mm messen</translation>
+        </message>
+        <message>
+            <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
+            <translation type="unfinished">Unsicherheit  die Unsicherheit der Kalibrierung selbst ist nicht bekannt: Jeder angegebene Radius lässt sie aus</translation>
+        </message>
+        <message>
+            <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
+            <translation type="unfinished">{in_use:?in Gebrauch: {in_use}|keine Kalibrierung ist in Gebrauch}</translation>
+        </message>
+        <message>
             <source>--lens {lens!r}: there are {known_lenses}; equidistant is the fisheye model</source>
             <translation type="unfinished">--lens {lens!r}: Es gibt {known_lenses}; equidistant ist das Fischaugenmodell</translation>
+        </message>
+        <message>
+            <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
+            <translation type="unfinished">  nicht geprüft: die Größe der Tafel; geben Sie --baseline-mm oder eine zweite Tafel an (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>  not validated: no pairs were held back (--hold-back N)</source>
+            <translation type="unfinished">  nicht validiert: keine Paare wurden zurückgehalten (--hold-back N)</translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation type="unfinished">ausgelassen</translation>
+        </message>
+        <message>
+            <source>no camera is plugged in</source>
+            <translation type="unfinished">keine Kamera ist angesteckt</translation>
+        </message>
+        <message>
+            <source>saved in {file}</source>
+            <translation type="unfinished">in {file} gespeichert</translation>
+        </message>
+        <message>
+            <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
+            <translation type="unfinished">beide Kameras sehen {share:.0%} des Kegels der Nadel ({basis})</translation>
+        </message>
+        <message>
+            <source>not measured; use --display</source>
+            <translation type="unfinished">nicht gemessen; verwenden Sie --display</translation>
         </message>
         <message>
             <source>{depths!r} is no range of depths; give for example -30,120</source>
@@ -752,6 +848,18 @@
             <translation type="unfinished">der Test braucht einen echten Bildschirm, den eine Kamera sehen kann; es gibt keinen</translation>
         </message>
         <message>
+            <source>the driver's</source>
+            <translation type="unfinished">die des Treibers</translation>
+        </message>
+        <message>
+            <source>of the delivery, less the latency</source>
+            <translation type="unfinished">die der Lieferung, abzüglich der Latenz</translation>
+        </message>
+        <message>
+            <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
+            <translation type="unfinished">Farbe des Markers: das übliche Rot (im Bereich Tracker nimmt Lernen eine andere auf)</translation>
+        </message>
+        <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
             <translation type="unfinished">nennen Sie einen Punkt: entweder --voxel I,J,K oder --sop UID mit --pixel COL,ROW</translation>
         </message>
@@ -768,8 +876,16 @@
             <translation type="unfinished">--sop UID und --pixel COL,ROW gehören zusammen; geben Sie beide an</translation>
         </message>
         <message>
+            <source>LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|no HU: padding, nothing was measured there}</source>
+            <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|keine HU: Auffüllung, dort wurde nichts gemessen}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r}: drei Zahlen X,Y,Z in mm</translation>
+        </message>
+        <message>
+            <source>the library is empty; `acus ct import DIR` takes a CT in</source>
+            <translation type="unfinished">die Bibliothek ist leer; `acus ct import DIR` nimmt ein CT auf</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -788,20 +904,88 @@
             <translation type="unfinished">{option} {argument!r} ist nicht {form}: {count} ganze Zahlen, keine Leerzeichen</translation>
         </message>
         <message>
+            <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
+            <translation type="unfinished">keine seriellen Anschlüsse; stecken Sie den Roboter an oder versuchen Sie `acus device emulate`</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">der Roboter hat geantwortet, sendet aber keine Gelenkwinkel; siehe `acus device test`</translation>
+        </message>
+        <message>
+            <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
+            <translation type="unfinished">{level}  {id}  Version {version}  {title:~}{shipped:?|  (Ihre eigene)}</translation>
+        </message>
+        <message>
+            <source>✖ cannot be used: {reason}</source>
+            <translation type="unfinished">✖ kann nicht verwendet werden: {reason}</translation>
         </message>
         <message>
             <source>--ct DIR needs --plan FILE: entry and target lie in that CT</source>
             <translation type="unfinished">--ct DIR braucht --plan FILE: Einstichpunkt und Ziel liegen in jenem CT</translation>
         </message>
         <message>
+            <source>✔ {exercise}: {id}, version {version}</source>
+            <translation type="unfinished">✔ {exercise}: {id}, Version {version}</translation>
+        </message>
+        <message>
+            <source># nothing is absent without a reason in {id}, version {version}</source>
+            <translation type="unfinished"># nichts fehlt ohne Grund in {id}, Version {version}</translation>
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is in the file</source>
+            <translation type="unfinished">  CT {manifest.ct.digest:.12}… liegt in der Datei</translation>
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is not in the file</source>
+            <translation type="unfinished">  CT {manifest.ct.digest:.12}… liegt nicht in der Datei</translation>
+        </message>
+        <message>
+            <source>{file}: {manifest.id}, version {manifest.exercise_version}</source>
+            <translation type="unfinished">{file}: {manifest.id}, Version {manifest.exercise_version}</translation>
+        </message>
+        <message>
+            <source>{id}, version {version} {known:?was there already|taken in}</source>
+            <translation type="unfinished">{id}, Version {version}, {known:?war schon da|aufgenommen}</translation>
+        </message>
+        <message>
             <source>there is no script {script!r}; there are {scripts}</source>
             <translation type="unfinished">es gibt kein Skript {script!r}; es gibt {scripts}</translation>
         </message>
         <message>
+            <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
+            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # ohne Bewertung|  # ohne Bewertung|}</translation>
+        </message>
+        <message>
+            <source>skill        median    quartiles  passed   time</source>
+            <translation type="unfinished">Können       Median    Quartile   bestanden Zeit</translation>
+        </message>
+        <message>
+            <source>all skills in their order: {ordered_seeds:.0%} of the seeds</source>
+            <translation type="unfinished">alle Können in ihrer Reihenfolge: {ordered_seeds:.0%} der Startwerte</translation>
+        </message>
+        <message>
+            <source>neighbouring skills ordered right, any seed with any: {ordered_share:.0%}</source>
+            <translation type="unfinished">benachbarte Können richtig geordnet, jeder Startwert mit jedem: {ordered_share:.0%}</translation>
+        </message>
+        <message>
+            <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
+            <translation type="unfinished">{id}  {plate}  {touched} berührt, {picked} gewählt  {rig}  {trusted:?gut|passt nicht}</translation>
+        </message>
+        <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
             <translation type="unfinished">--target {target}: Drei Zahlen X,Y,Z in mm sind nötig</translation>
+        </message>
+        <message>
+            <source>nobody and nothing to show: add students first</source>
+            <translation type="unfinished">niemand und nichts zu zeigen: fügen Sie zuerst Teilnehmer hinzu</translation>
+        </message>
+        <message>
+            <source>{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}</source>
+            <translation type="unfinished">{started:@}  {total:5.1f}  Bestwert {best:5.1f}  Median {median:5.1f}</translation>
+        </message>
+        <message>
+            <source>{pseudonym} has no attempt at {exercise} that counts</source>
+            <translation type="unfinished">{pseudonym} hat keinen Versuch an {exercise}, der zählt</translation>
         </message>
         <message>
             <source>{form}: the forms are {forms}</source>
@@ -812,24 +996,220 @@
             <translation type="unfinished">--student gilt für pdf; die Tabellen enthalten alle</translation>
         </message>
         <message>
+            <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
+            <translation type="unfinished">{attempts:#1 Versuch|# Versuche} von {students:#1 Teilnehmer|# Teilnehmern} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
+            <translation type="unfinished">Bestwert {best:3.0f}, zuletzt {last:3.0f}, {trend}, {attempts}, vor {days:.1f} Tagen</translation>
+        </message>
+        <message>
+            <source>no trend yet</source>
+            <translation type="unfinished">noch kein Trend</translation>
+        </message>
+        <message>
+            <source>{change:+.1f} a time</source>
+            <translation type="unfinished">{change:+.1f} je Versuch</translation>
+        </message>
+        <message>
+            <source> ({others} not counted)</source>
+            <translation type="unfinished"> ({others} zählen nicht)</translation>
+        </message>
+        <message>
             <source>--ct {ct} does not exist; name a folder or file with a CT</source>
             <translation type="unfinished">--ct {ct} gibt es nicht; nennen Sie einen Ordner oder eine Datei mit einem CT</translation>
+        </message>
+        <message>
+            <source>attempts are kept in {folder}</source>
+            <translation type="unfinished">Versuche werden in {folder} aufbewahrt</translation>
+        </message>
+        <message>
+            <source>no sessions in {folder}</source>
+            <translation type="unfinished">keine Sitzungen in {folder}</translation>
+        </message>
+        <message>
+            <source>score: {verdict}</source>
+            <translation type="unfinished">Bewertung: {verdict}</translation>
+        </message>
+        <message>
+            <source>signature: {verdict}</source>
+            <translation type="unfinished">Signatur: {verdict}</translation>
+        </message>
+        <message>
+            <source>admitted by the instructor: {reason}</source>
+            <translation type="unfinished">vom Kursleiter zugelassen: {reason}</translation>
+        </message>
+        <message>
+            <source>{file} is not sealed by this station: lists read the record</source>
+            <translation type="unfinished">{file} ist nicht von dieser Station versiegelt: Listen lesen die Aufzeichnung</translation>
+        </message>
+        <message>
+            <source>the index was altered: {problem}</source>
+            <translation type="unfinished">das Verzeichnis wurde verändert: {problem}</translation>
+        </message>
+        <message>
+            <source>not comparable: {reason}</source>
+            <translation type="unfinished">nicht vergleichbar: {reason}</translation>
+        </message>
+        <message>
+            <source>comparable</source>
+            <translation type="unfinished">vergleichbar</translation>
+        </message>
+        <message>
+            <source>{id} deleted: `acus session restore {id}` brings it back</source>
+            <translation type="unfinished">{id} gelöscht: `acus session restore {id}` holt den Versuch zurück</translation>
+        </message>
+        <message>
+            <source>{id} is back</source>
+            <translation type="unfinished">{id} ist wieder da</translation>
+        </message>
+        <message>
+            <source>{id} was closed as it stands: listed as unfinished</source>
+            <translation type="unfinished">{id} wurde abgeschlossen, wie er ist: als unvollendet geführt</translation>
+        </message>
+        <message>
+            <source>{id} has its end: there was nothing to recover, and nothing was changed</source>
+            <translation type="unfinished">{id} hat sein Ende: Es gab nichts zu retten, und nichts wurde verändert</translation>
+        </message>
+        <message>
+            <source>{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` keeps it</source>
+            <translation type="unfinished">{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` behält ihn</translation>
+        </message>
+        <message>
+            <source>no attempt was cut off in {folder}</source>
+            <translation type="unfinished">kein Versuch wurde in {folder} abgebrochen</translation>
+        </message>
+        <message>
+            <source>nothing to do</source>
+            <translation type="unfinished">nichts zu tun</translation>
+        </message>
+        <message>
+            <source>{left:#1 stays|# stay} there, not signed by this station: `acus session list --folder {from}` lists them</source>
+            <translation type="unfinished">{left:#1 bleibt|# bleiben} dort, nicht von dieser Station signiert: `acus session list --folder {from}` zeigt sie</translation>
+        </message>
+        <message>
+            <source>{gathered:#1 attempt|# attempts} brought from {from} to {folder}</source>
+            <translation type="unfinished">{gathered:#1 Versuch|# Versuche} aus {from} nach {folder} geholt</translation>
         </message>
         <message>
             <source>--out {out}: only .csv can be written</source>
             <translation type="unfinished">--out {out}: Nur .csv lässt sich schreiben</translation>
         </message>
         <message>
+            <source>{rows:#1 row|# rows} written to {files}</source>
+            <translation type="unfinished">{rows:#1 Zeile|# Zeilen} in {files} geschrieben</translation>
+        </message>
+        <message>
             <source>--trajectory takes exactly one session id</source>
             <translation type="unfinished">--trajectory verlangt genau eine Sitzungskennung</translation>
+        </message>
+        <message>
+            <source>student</source>
+            <translation type="unfinished">Teilnehmer</translation>
+        </message>
+        <message>
+            <source>exercise</source>
+            <translation type="unfinished">Übung</translation>
+        </message>
+        <message>
+            <source>state</source>
+            <translation type="unfinished">Zustand</translation>
+        </message>
+        <message>
+            <source>duration</source>
+            <translation type="unfinished">Dauer</translation>
+        </message>
+        <message>
+            <source>score</source>
+            <translation type="unfinished">Bewertung</translation>
+        </message>
+        <message>
+            <source>signature</source>
+            <translation type="unfinished">Signatur</translation>
+        </message>
+        <message>
+            <source>— altered</source>
+            <translation type="unfinished">— verändert</translation>
+        </message>
+        <message>
+            <source>{total:.0f} % passed</source>
+            <translation type="unfinished">{total:.0f} % bestanden</translation>
+        </message>
+        <message>
+            <source>{total:.0f} %</source>
+            <translation type="unfinished">{total:.0f} %</translation>
+        </message>
+        <message>
+            <source>no student's attempt: {hands}</source>
+            <translation type="unfinished">kein Versuch eines Teilnehmers: {hands}</translation>
+        </message>
+        <message>
+            <source>± {radius:.1f} mm (95 %), median</source>
+            <translation type="unfinished">± {radius:.1f} mm (95 %), Median</translation>
+        </message>
+        <message>
+            <source>started</source>
+            <translation type="unfinished">Beginn</translation>
+        </message>
+        <message>
+            <source>reason</source>
+            <translation type="unfinished">Grund</translation>
+        </message>
+        <message>
+            <source>{seconds:.1f} s</source>
+            <translation type="unfinished">{seconds:.1f} s</translation>
+        </message>
+        <message>
+            <source>scans</source>
+            <translation type="unfinished">Scans</translation>
+        </message>
+        <message>
+            <source>file</source>
+            <translation type="unfinished">Datei</translation>
+        </message>
+        <message>
+            <source>hand</source>
+            <translation type="unfinished">Hand</translation>
+        </message>
+        <message>
+            <source>whose</source>
+            <translation type="unfinished">von wem</translation>
+        </message>
+        <message>
+            <source>calibration</source>
+            <translation type="unfinished">Kalibrierung</translation>
+        </message>
+        <message>
+            <source>tip known to</source>
+            <translation type="unfinished">Spitze auf</translation>
+        </message>
+        <message>
+            <source>published</source>
+            <translation type="unfinished">Literatur</translation>
+        </message>
+        <message>
+            <source>problem</source>
+            <translation type="unfinished">Problem</translation>
+        </message>
+        <message>
+            <source>wrote {file}</source>
+            <translation type="unfinished">{file} geschrieben</translation>
         </message>
         <message>
             <source>study {name} takes no --{option}; leave it out</source>
             <translation type="unfinished">die Studie {name} kennt kein --{option}; lassen Sie es weg</translation>
         </message>
         <message>
+            <source>tables and pictures are in {folder}</source>
+            <translation type="unfinished">Tabellen und Bilder liegen in {folder}</translation>
+        </message>
+        <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r}: Verwenden Sie {valid}</translation>
+        </message>
+        <message>
+            <source>{files}: from world (robot) to patient (LPS)</source>
+            <translation type="unfinished">{files}: von der Welt (Roboter) zum Patienten (LPS)</translation>
         </message>
         <message>
             <source>--origin {origin!r}; valid names: {names}</source>
@@ -2200,6 +2580,10 @@
             <translation type="unfinished">fading: Eine Prüfung ist für alle gleich: Lassen Sie fading weg, oder nehmen Sie purpose: practice</translation>
         </message>
         <message>
+            <source>tolerances: {metric} is of a path that the student chooses: use plan {{own: true}}, or leave it out</source>
+            <translation type="unfinished">tolerances: {metric} gehört zu einem Pfad, den die Studierenden wählen: Nehmen Sie plan {{own: true}}, oder lassen Sie es weg</translation>
+        </message>
+        <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
             <translation type="unfinished">plan {{own: true}} bei einem CT-Ordner braucht target_mm: [x, y, z]</translation>
         </message>
@@ -2600,8 +2984,8 @@
             <translation type="unfinished">pydicom ist geladen</translation>
         </message>
         <message>
-            <source>{absent} {verb} missing, without which its pixels cannot be told</source>
-            <translation type="unfinished">{absent} {verb} nicht vorhanden; ohne diese Angaben lassen sich die Pixel nicht deuten</translation>
+            <source>missing, without which its pixels cannot be told: {names}</source>
+            <translation type="unfinished">es fehlt, ohne das seine Bildpunkte nicht zu deuten sind: {names}</translation>
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>
@@ -3248,10 +3632,6 @@
             <translation type="unfinished">{listing_path} ist leer; nennen Sie einen Ordner mit DICOM-Dateien</translation>
         </message>
         <message>
-            <source>no DICOM series in {listing_path}: {ignored} {files} ignored ({first_path_name}: {first_reason})</source>
-            <translation type="unfinished">keine DICOM-Serie in {listing_path}: übergangen: {ignored} {files} ({first_path_name}: {first_reason})</translation>
-        </message>
-        <message>
             <source>no series {series_uid} in {listing_path}; it holds {valid}</source>
             <translation type="unfinished">keine Serie {series_uid} in {listing_path}; vorhanden: {valid}</translation>
         </message>
@@ -3344,10 +3724,6 @@
             <translation type="unfinished">neu berechnet aus Schichten mit {narrowest_mm:.3g} bis {widest_mm:.3g} mm Abstand auf {step:.3g} mm</translation>
         </message>
         <message>
-            <source>{empty} {gaps} of missing slices left empty</source>
-            <translation type="unfinished">fehlende Schichten leer gelassen: {empty} {gaps}</translation>
-        </message>
-        <message>
             <source>there is no volume to write to</source>
             <translation type="unfinished">es gibt kein Volumen zum Beschreiben</translation>
         </message>
@@ -3378,10 +3754,6 @@
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
             <translation type="unfinished">Richtungskosinus nicht von der Länge eins: übernommen, wie sie geschrieben sind</translation>
-        </message>
-        <message>
-            <source>{files} bytes behind the pixels, which are left out</source>
-            <translation type="unfinished">Byte hinter den Pixeln werden weggelassen ({files})</translation>
         </message>
         <message>
             <source>slices lie {between:.1f} mm apart and are {thickness:.3g} mm thick: what is shown between them is interpolated, nothing there was scanned</source>
@@ -3756,24 +4128,8 @@
             <translation type="unfinished">{name} hat {here:.2f} ml im Raster dieses CT, {there:.2f} ml in der Datei</translation>
         </message>
         <message>
-            <source>{name}: {count} {contours} {reason} left out</source>
-            <translation type="unfinished">{name}: weggelassen: {count} {contours} {reason}</translation>
-        </message>
-        <message>
             <source>its contours spread over {columns} × {rows} × {slices} voxels</source>
             <translation type="unfinished">die Konturen erstrecken sich über {columns} × {rows} × {slices} Voxel</translation>
-        </message>
-        <message>
-            <source>contour that is</source>
-            <translation type="unfinished">Kontur</translation>
-        </message>
-        <message>
-            <source>contours that are</source>
-            <translation type="unfinished">Konturen</translation>
-        </message>
-        <message>
-            <source>{repeated} {times} in the file twice counted once</source>
-            <translation type="unfinished">in der Datei doppelt vorhanden, nur einmal gezählt: {repeated} {times}</translation>
         </message>
         <message>
             <source>contours that cross one another were joined</source>
@@ -4448,14 +4804,6 @@
             <translation type="unfinished">die Platte {plate_name} hat keinen bekannten Ort im Koordinatensystem des Roboters, und es wurden keine Kugeln gewählt: Die Berührungen haben nichts, womit sie übereinstimmen könnten; geben Sie `place` an, oder wählen Sie die Kugeln im CT</translation>
         </message>
         <message>
-            <source>touch {lacking} more {fiducials}</source>
-            <translation type="unfinished">noch zu berühren: {lacking} {fiducials}</translation>
-        </message>
-        <message>
-            <source>pick {lacking} more {beads} in the CT, or none</source>
-            <translation type="unfinished">noch im CT zu wählen: {lacking} {beads}, oder keine</translation>
-        </message>
-        <message>
             <source>two fiducials have the same name: {names}</source>
             <translation type="unfinished">zwei Referenzmarken haben denselben Namen: {names}</translation>
         </message>
@@ -4548,10 +4896,6 @@
             <translation type="unfinished">Punkt {i} ({name}) ist {point} m: Nötig sind endliche Zahlen innerhalb von ±{largest:g} m (Millimeter statt Meter?)</translation>
         </message>
         <message>
-            <source>{points_given} {name} {points}: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
-            <translation type="unfinished">{points_given} {points} ({name}): Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</translation>
-        </message>
-        <message>
             <source>the {name} points lie within {extent_mm:.2f} mm of each other: they are one point; touch fiducials that are far apart</source>
             <translation type="unfinished">die Punkte ({name}) liegen innerhalb von {extent_mm:.2f} mm: Sie sind ein Punkt; berühren Sie Referenzmarken, die weit auseinanderliegen</translation>
         </message>
@@ -4564,8 +4908,40 @@
             <translation type="unfinished">Gewichte {array}: Nötig sind {count} positive Zahlen, die höchstens um den Faktor 1e6 auseinanderliegen</translation>
         </message>
         <message>
+            <source>screen and needle: not checked</source>
+            <translation type="unfinished">Bildschirm und Nadel: nicht kontrolliert</translation>
+        </message>
+        <message>
+            <source>FRE says how well the points fit each other. It is not the accuracy at the target, and a small FRE does not promise one.</source>
+            <translation type="unfinished">Der FRE sagt, wie gut die Punkte zueinander passen. Er ist nicht die Genauigkeit am Ziel, und ein kleiner FRE verspricht keine.</translation>
+        </message>
+        <message>
+            <source>FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect at the target: it grows with the distance from the fiducials.</source>
+            <translation type="unfinished">Der FLE ist der Fehler beim Berühren eines Punkts, aus dem FRE geschätzt. Der TRE ist der am Ziel zu erwartende Fehler: Er wächst mit dem Abstand von den Referenzmarken.</translation>
+        </message>
+        <message>
+            <source>A shift that all touches share, a wrong tip length for instance, does not show in the FRE.</source>
+            <translation type="unfinished">Eine Verschiebung, die alle Berührungen teilen, etwa eine falsche Spitzenlänge, zeigt sich im FRE nicht.</translation>
+        </message>
+        <message>
             <source>screen and needle agree within ± {mm} mm (95 %)</source>
             <translation type="unfinished">Bildschirm und Nadel stimmen auf ± {mm} mm überein (95 %)</translation>
+        </message>
+        <message>
+            <source>touched</source>
+            <translation type="unfinished">berührten</translation>
+        </message>
+        <message>
+            <source>picked</source>
+            <translation type="unfinished">gewählten</translation>
+        </message>
+        <message>
+            <source>touches</source>
+            <translation type="unfinished">Berührungen</translation>
+        </message>
+        <message>
+            <source>picks in the CT</source>
+            <translation type="unfinished">Punkte im CT</translation>
         </message>
         <message>
             <source>TRE at the target: {expected_mm} mm RMS expected, at least 95 % within {within_95_mm} mm ({check_world_condition})</source>
@@ -4600,12 +4976,28 @@
             <translation type="unfinished">Längen zwischen den Punkten ({verb}) sind um {off:.1%} zu {direction} (± {part_scale_sd:.1%})</translation>
         </message>
         <message>
+            <source>long</source>
+            <translation type="unfinished">lang</translation>
+        </message>
+        <message>
+            <source>short</source>
+            <translation type="unfinished">kurz</translation>
+        </message>
+        <message>
             <source>{finding}: the CT's spacing is wrong, or this is another plate</source>
             <translation type="unfinished">{finding}: Der Pixel- oder Schichtabstand des CT ist falsch, oder dies ist eine andere Platte</translation>
         </message>
         <message>
             <source>{finding}: the cameras were calibrated with a board of another size than said. Measure its line of 100 mm and its squares, calibrate again; or this is another plate</source>
             <translation type="unfinished">{finding}: Die Kameras wurden mit einer Tafel kalibriert, deren Größe nicht stimmt. Messen Sie ihre 100-mm-Linie und ihre Quadrate nach und kalibrieren Sie neu; oder es ist eine andere Platte</translation>
+        </message>
+        <message>
+            <source>{mm:.1f}</source>
+            <translation type="unfinished">{mm:.1f}</translation>
+        </message>
+        <message>
+            <source>{mm:.2f}</source>
+            <translation type="unfinished">{mm:.2f}</translation>
         </message>
         <message>
             <source>one of them has no score</source>
@@ -5176,6 +5568,10 @@
             <translation type="unfinished">Menü Roboter, Inbetriebnahme, Schritt Referenzfahrt</translation>
         </message>
         <message>
+            <source>Signs</source>
+            <translation type="unfinished">Drehsinn</translation>
+        </message>
+        <message>
             <source>simulated robot: its signs are known</source>
             <translation type="unfinished">simulierter Roboter: Seine Vorzeichen sind bekannt</translation>
         </message>
@@ -5212,12 +5608,64 @@
             <translation type="unfinished">der Roboter hat sich noch nicht gemeldet</translation>
         </message>
         <message>
+            <source>at most {force:g} N</source>
+            <translation type="unfinished">höchstens {force:g} N</translation>
+        </message>
+        <message>
+            <source>{cameras} of 2 cameras</source>
+            <translation type="unfinished">{cameras} von 2 Kameras</translation>
+        </message>
+        <message>
             <source>plug both cameras in; menu Cameras</source>
             <translation type="unfinished">schließen Sie beide Kameras an; Menü Kameras</translation>
         </message>
         <message>
             <source>both bright and sharp, {rates} a second</source>
             <translation type="unfinished">beide hell und scharf, {rates} pro Sekunde</translation>
+        </message>
+        <message>
+            <source>check the camera's cable; menu Cameras</source>
+            <translation type="unfinished">prüfen Sie das Kabel der Kamera; Menü Kameras</translation>
+        </message>
+        <message>
+            <source>wait a moment</source>
+            <translation type="unfinished">einen Augenblick warten</translation>
+        </message>
+        <message>
+            <source>the picture is dark</source>
+            <translation type="unfinished">das Bild ist dunkel</translation>
+        </message>
+        <message>
+            <source>lens cap, light, exposure</source>
+            <translation type="unfinished">Objektivdeckel, Licht, Belichtung</translation>
+        </message>
+        <message>
+            <source>{share:.0f} % of the picture is overexposed</source>
+            <translation type="unfinished">{share:.0f} % des Bildes sind überbelichtet</translation>
+        </message>
+        <message>
+            <source>less light, or a shorter exposure</source>
+            <translation type="unfinished">weniger Licht oder eine kürzere Belichtung</translation>
+        </message>
+        <message>
+            <source>{rate:.0f} pictures a second instead of {wanted:.0f}</source>
+            <translation type="unfinished">{rate:.0f} Bilder je Sekunde statt {wanted:.0f}</translation>
+        </message>
+        <message>
+            <source>own USB port for each camera; lock the exposure</source>
+            <translation type="unfinished">ein eigener USB-Anschluss für jede Kamera; die Belichtung festhalten</translation>
+        </message>
+        <message>
+            <source>the marker's edge is {width:.1f} px wide</source>
+            <translation type="unfinished">die Kante des Markers ist {width:.1f} px breit</translation>
+        </message>
+        <message>
+            <source>focus the lens on the needle and lock it</source>
+            <translation type="unfinished">das Objektiv auf die Nadel scharf stellen und feststellen</translation>
+        </message>
+        <message>
+            <source>Marker</source>
+            <translation type="unfinished">Marker</translation>
         </message>
         <message>
             <source>found in both pictures</source>
@@ -5228,6 +5676,10 @@
             <translation type="unfinished">noch keine Bilder</translation>
         </message>
         <message>
+            <source>pictures first</source>
+            <translation type="unfinished">zuerst die Bilder</translation>
+        </message>
+        <message>
             <source>only one camera</source>
             <translation type="unfinished">nur eine Kamera</translation>
         </message>
@@ -5236,12 +5688,20 @@
             <translation type="unfinished">schieben Sie die Nadel vor, bis beide Kameras das rote Band sehen; achten Sie auf andere rote Dinge</translation>
         </message>
         <message>
+            <source>Cameras agree</source>
+            <translation type="unfinished">Kameras stimmen überein</translation>
+        </message>
+        <message>
             <source>no point yet</source>
             <translation type="unfinished">noch kein Punkt</translation>
         </message>
         <message>
             <source>the marker must be seen by both cameras</source>
             <translation type="unfinished">beide Kameras müssen den Marker sehen</translation>
+        </message>
+        <message>
+            <source>residual {residual:.2f} px</source>
+            <translation type="unfinished">Restfehler {residual:.2f} px</translation>
         </message>
         <message>
             <source>a camera was moved, or robot and cameras differ: `acus calibrate world`</source>
@@ -5386,10 +5846,6 @@
         <message>
             <source>effect {effect} is computed by its model {model} from here on</source>
             <translation type="unfinished">der Effekt {effect} wird ab hier mit seinem Modell {model} berechnet</translation>
-        </message>
-        <message>
-            <source>{lie} in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
-            <translation type="unfinished">{lie} in {folder}, wo frühere Versionen Versuche ablegten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` listet alle auf</translation>
         </message>
         <message>
             <source>cannot bring attempts here: {place}: {error_strerror}</source>
@@ -7020,10 +7476,6 @@
             <translation type="unfinished">{listed}: Der Name sagt nicht, welche Kamera es ist; benennen Sie Bilder z. B. left01.png und right01.png oder camera0_1.png und camera1_1.png</translation>
         </message>
         <message>
-            <source>the names of the pictures speak of {cameras} camera(s); two are needed, e.g. left01.png and right01.png</source>
-            <translation type="unfinished">Kameras, von denen die Bildnamen sprechen: {cameras}; nötig sind zwei, z. B. left01.png und right01.png</translation>
-        </message>
-        <message>
             <source>{listed}: no picture of the other camera has that number; name those taken together alike (docs/calibration.md says how names are paired)</source>
             <translation type="unfinished">{listed}: Kein Bild der anderen Kamera hat diese Nummer; benennen Sie gemeinsam aufgenommene Bilder gleich (docs/calibration.md sagt, wie Namen gepaart werden)</translation>
         </message>
@@ -8357,13 +8809,12 @@ Nein: diese unter einem anderen Namen speichern.</translation>
             <source>five scripted skills are trying it …</source>
             <translation type="unfinished">fünf Skripte verschiedenen Könnens probieren sie aus …</translation>
         </message>
-        <message>
-            <source>1 attempt of each skill, without structures of risk</source>
-            <translation type="unfinished">1 Versuch je Skript, ohne Risikostrukturen</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts of each skill, without structures of risk</source>
-            <translation type="unfinished">{n} Versuche je Skript, ohne Risikostrukturen</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch jedes Könnens, ohne Risikostrukturen</numerusform>
+                <numerusform>{n} Versuche jedes Könnens, ohne Risikostrukturen</numerusform>
+            </translation>
         </message>
         <message>
             <source>more are on their way …</source>
@@ -9748,8 +10199,28 @@ Anteil</translation>
             <translation type="unfinished">Bildschirm und Nadel</translation>
         </message>
         <message>
+            <source>checked</source>
+            <translation type="unfinished">kontrolliert</translation>
+        </message>
+        <message>
+            <source>checked with remarks</source>
+            <translation type="unfinished">mit Anmerkungen kontrolliert</translation>
+        </message>
+        <message>
             <source>check failed</source>
             <translation type="unfinished">Kontrolle nicht bestanden</translation>
+        </message>
+        <message>
+            <source>check not finished</source>
+            <translation type="unfinished">Kontrolle nicht beendet</translation>
+        </message>
+        <message>
+            <source>{verdict} today {time}</source>
+            <translation type="unfinished">{verdict} heute {time}</translation>
+        </message>
+        <message>
+            <source>{verdict} {date:%Y-%m-%d %H:%M}</source>
+            <translation type="unfinished">{verdict} {date:%Y-%m-%d %H:%M}</translation>
         </message>
         <message>
             <source>not checked</source>
@@ -10011,13 +10482,12 @@ Anteil</translation>
             <source>and {n} more</source>
             <translation type="unfinished">und {n} weitere</translation>
         </message>
-        <message>
-            <source>The program ended in the middle of an attempt:</source>
-            <translation type="unfinished">Das Programm endete mitten in einem Versuch:</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>The program ended in the middle of {n} attempts:</source>
-            <translation type="unfinished">Das Programm endete mitten in {n} Versuchen:</translation>
+            <translation type="unfinished">
+                <numerusform>Das Programm endete mitten in {n} Versuch:</numerusform>
+                <numerusform>Das Programm endete mitten in {n} Versuchen:</numerusform>
+            </translation>
         </message>
         <message>
             <source>Recover keeps what was recorded: it stays in the list as unfinished, without a score. Later changes nothing; the list of sessions offers it too.</source>
@@ -10087,13 +10557,12 @@ Anteil</translation>
             <source>Earlier attempts lie in {there} ({n}): Sessions ▸ Bring earlier attempts here…</source>
             <translation type="unfinished">Frühere Versuche liegen in {there} ({n}): Sitzungen ▸ Frühere Versuche hierherholen…</translation>
         </message>
-        <message>
-            <source>1 attempt has come; it is in the list (F7).</source>
-            <translation type="unfinished">1 Versuch ist angekommen; er steht in der Liste (F7).</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts have come; they are in the list (F7).</source>
-            <translation type="unfinished">{n} Versuche sind angekommen; sie stehen in der Liste (F7).</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch ist angekommen; er steht in der Liste (F7).</numerusform>
+                <numerusform>{n} Versuche sind angekommen; sie stehen in der Liste (F7).</numerusform>
+            </translation>
         </message>
         <message>
             <source>vessel</source>
@@ -10123,9 +10592,12 @@ Anteil</translation>
             <source>{met}, at {when}</source>
             <translation type="unfinished">{met}, bei {when}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>met {n} times here</source>
-            <translation type="unfinished">hier {n}-mal getroffen</translation>
+            <translation type="unfinished">
+                <numerusform>hier {n}-mal getroffen</numerusform>
+                <numerusform>hier {n}-mal getroffen</numerusform>
+            </translation>
         </message>
         <message>
             <source>longest way in it: {mm:.1f} mm</source>
@@ -10377,33 +10849,30 @@ Anteil</translation>
             <source>Say why: the student reads it in the list and in the debrief.</source>
             <translation type="unfinished">Sagen Sie, warum: Der Teilnehmer liest es in der Liste und in der Nachbesprechung.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts declared void</source>
-            <translation type="unfinished">{n} Versuche für ungültig erklärt</translation>
-        </message>
-        <message>
-            <source>1 attempt declared void</source>
-            <translation type="unfinished">1 Versuch für ungültig erklärt</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch für ungültig erklärt</numerusform>
+                <numerusform>{n} Versuche für ungültig erklärt</numerusform>
+            </translation>
         </message>
         <message>
             <source>Only the instructor does that: Sessions ▸ Sign in.</source>
             <translation type="unfinished">Das darf nur der Kursleiter: Sitzungen ▸ Anmelden.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts admitted</source>
-            <translation type="unfinished">{n} Versuche anerkannt</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch zugelassen</numerusform>
+                <numerusform>{n} Versuche zugelassen</numerusform>
+            </translation>
         </message>
-        <message>
-            <source>1 attempt admitted</source>
-            <translation type="unfinished">1 Versuch anerkannt</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{done}: {n} attempts</source>
-            <translation type="unfinished">{done}: {n} Versuche</translation>
-        </message>
-        <message>
-            <source>{done}: 1 attempt</source>
-            <translation type="unfinished">{done}: 1 Versuch</translation>
+            <translation type="unfinished">
+                <numerusform>{done}: {n} Versuch</numerusform>
+                <numerusform>{done}: {n} Versuche</numerusform>
+            </translation>
         </message>
         <message>
             <source>Place in the attempt</source>
@@ -10652,12 +11121,20 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Unterstützung {dial}</translation>
         </message>
         <message>
+            <source>bands: {bands}</source>
+            <translation type="unfinished">Bereiche: {bands}</translation>
+        </message>
+        <message>
             <source>▲ model changed meanwhile: {models}</source>
             <translation type="unfinished">▲ Modell zwischendurch gewechselt: {models}</translation>
         </message>
         <message>
             <source>Hand and robot</source>
             <translation type="unfinished">Hand und Roboter</translation>
+        </message>
+        <message>
+            <source>Bands</source>
+            <translation type="unfinished">Bereiche</translation>
         </message>
         <message>
             <source>Computer</source>
@@ -10670,6 +11147,18 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>Software</source>
             <translation type="unfinished">Software</translation>
+        </message>
+        <message>
+            <source>from scripts, not people</source>
+            <translation type="unfinished">nach Skripten, nicht nach Menschen</translation>
+        </message>
+        <message>
+            <source>from people's attempts</source>
+            <translation type="unfinished">nach Versuchen von Menschen</translation>
+        </message>
+        <message>
+            <source>as the exercise's author set them</source>
+            <translation type="unfinished">wie sie die Autorin oder der Autor der Übung gesetzt hat</translation>
         </message>
         <message>
             <source>{start} as set, throughout</source>
@@ -10943,13 +11432,12 @@ Buchstaben: Richtungen des Patienten
             <source>{label}: {value} cost {points}; {expert} or less costs none.</source>
             <translation type="unfinished">{label}: {value} kostete {points}; bis {expert} kostet es nichts.</translation>
         </message>
-        <message>
-            <source>1 point</source>
-            <translation type="unfinished">1 Punkt</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} points</source>
-            <translation type="unfinished">{n} Punkte</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Punkt</numerusform>
+                <numerusform>{n} Punkte</numerusform>
+            </translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -10974,6 +11462,10 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>The same again: it is not passed yet.</source>
             <translation type="unfinished">Noch einmal dieselbe: Sie ist noch nicht bestanden.</translation>
+        </message>
+        <message>
+            <source>The same once more: two passes in a row lead on.</source>
+            <translation type="unfinished">Noch einmal dieselbe: Zweimal nacheinander bestanden führt weiter.</translation>
         </message>
         <message>
             <source> {n} attempts in a row did not pass; this one is of level {level}.</source>
@@ -11059,9 +11551,12 @@ Buchstaben: Richtungen des Patienten
             <source>expert {expert:g}, good {good:g}, pass {passing:g} {unit}</source>
             <translation type="unfinished">Experte {expert:g}, gut {good:g}, bestanden {passing:g} {unit}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} days left</source>
-            <translation type="unfinished">Tage übrig: {n}</translation>
+            <translation type="unfinished">
+                <numerusform>noch {n} Tag</numerusform>
+                <numerusform>noch {n} Tage</numerusform>
+            </translation>
         </message>
         <message>
             <source>void: {why}</source>
@@ -11079,9 +11574,12 @@ Buchstaben: Richtungen des Patienten
             <source>cut off: Recover closes it as it is</source>
             <translation type="unfinished">unterbrochen: Wiederherstellen schließt ihn ab, wie er ist</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>deleted; can be brought back for {n} days</source>
-            <translation type="unfinished">gelöscht; lässt sich zurückholen (Tage übrig: {n})</translation>
+            <translation type="unfinished">
+                <numerusform>gelöscht; kann noch {n} Tag lang zurückgeholt werden</numerusform>
+                <numerusform>gelöscht; kann noch {n} Tage lang zurückgeholt werden</numerusform>
+            </translation>
         </message>
         <message>
             <source>deleted; can be brought back until the trash is emptied</source>
@@ -11100,8 +11598,32 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Signatur</translation>
         </message>
         <message>
+            <source>this computer was too busy: the simulated cameras' pictures came too late; close other programs, then try again</source>
+            <translation type="unfinished">dieser Rechner war zu beschäftigt: Die Bilder der simulierten Kameras kamen zu spät; schließen Sie andere Programme und versuchen Sie es noch einmal</translation>
+        </message>
+        <message>
+            <source>pictures and report are in {folder}</source>
+            <translation type="unfinished">Bilder und Bericht liegen in {folder}</translation>
+        </message>
+        <message>
+            <source>  void: {reason}</source>
+            <translation type="unfinished">  ungültig: {reason}</translation>
+        </message>
+        <message>
+            <source>{total:.0f} of 100</source>
+            <translation type="unfinished">{total:.0f} von 100</translation>
+        </message>
+        <message>
             <source>void</source>
             <translation type="unfinished">ungültig</translation>
+        </message>
+        <message>
+            <source>not passed</source>
+            <translation type="unfinished">nicht bestanden</translation>
+        </message>
+        <message>
+            <source>session: {record} (`acus session show`, `replay`: by this path)</source>
+            <translation type="unfinished">Sitzung: {record} (`acus session show`, `replay`: mit diesem Pfad)</translation>
         </message>
         <message>
             <source>held</source>
@@ -11328,6 +11850,22 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">{mark:g} von 100 Punkten genügen zum Bestehen.</translation>
         </message>
         <message>
+            <source>With the mouse</source>
+            <translation type="unfinished">Mit der Maus</translation>
+        </message>
+        <message>
+            <source>With the tablet</source>
+            <translation type="unfinished">Mit dem Grafiktablett</translation>
+        </message>
+        <message>
+            <source>With the gamepad</source>
+            <translation type="unfinished">Mit dem Gamepad</translation>
+        </message>
+        <message>
+            <source>{hand}: {limits}</source>
+            <translation type="unfinished">{hand}: {limits}</translation>
+        </message>
+        <message>
             <source>{title}: best from {best}, passes from {passes}</source>
             <translation type="unfinished">{title}: bestens ab {best}, bestanden ab {passes}</translation>
         </message>
@@ -11411,25 +11949,19 @@ Buchstaben: Richtungen des Patienten
             <source>Any number of attempts.</source>
             <translation type="unfinished">Beliebig viele Versuche.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts are allowed.</source>
-            <translation type="unfinished">{n} Versuche sind erlaubt.</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch ist erlaubt.</numerusform>
+                <numerusform>{n} Versuche sind erlaubt.</numerusform>
+            </translation>
         </message>
-        <message>
-            <source>1 attempt is allowed.</source>
-            <translation type="unfinished">1 Versuch ist erlaubt.</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{left} of {n} attempts are left.</source>
-            <translation type="unfinished">Verbleibende Versuche: {left} von {n}.</translation>
-        </message>
-        <message>
-            <source>The one attempt is left.</source>
-            <translation type="unfinished">Der eine Versuch ist noch frei.</translation>
-        </message>
-        <message>
-            <source>The one attempt is used.</source>
-            <translation type="unfinished">Der eine Versuch ist verbraucht.</translation>
+            <translation type="unfinished">
+                <numerusform>{left} von {n} Versuch ist übrig.</numerusform>
+                <numerusform>{left} von {n} Versuchen sind übrig.</numerusform>
+            </translation>
         </message>
         <message>
             <source>Course: {title}.</source>
@@ -13756,8 +14288,84 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">die beiden Passwörter sind nicht gleich: Geben Sie sie noch einmal ein</translation>
         </message>
         <message>
+            <source>no students yet: `acus people add` or `acus people roster`</source>
+            <translation type="unfinished">noch keine Teilnehmer: `acus people add` oder `acus people roster`</translation>
+        </message>
+        <message>
+            <source>{pseudonym} was added; PIN {pin}</source>
+            <translation type="unfinished">{pseudonym} wurde hinzugefügt; PIN {pin}</translation>
+        </message>
+        <message>
+            <source>nothing was taken</source>
+            <translation type="unfinished">nichts wurde übernommen</translation>
+        </message>
+        <message>
+            <source>{added:#1 student|# students} added, {updated:#} updated</source>
+            <translation type="unfinished">{added:#1 Teilnehmer|# Teilnehmer} hinzugefügt, {updated:#} geändert</translation>
+        </message>
+        <message>
+            <source>{pseudonym} has a new PIN</source>
+            <translation type="unfinished">{pseudonym} hat eine neue PIN</translation>
+        </message>
+        <message>
+            <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
+            <translation type="unfinished">{pseudonym} wurde gelöscht; gelöschte Aufzeichnungen: {records}, als niemandes behalten: {anonymous}</translation>
+        </message>
+        <message>
             <source>Recovery key</source>
             <translation type="unfinished">Wiederherstellungsschlüssel</translation>
+        </message>
+        <message>
+            <source>the password was changed</source>
+            <translation type="unfinished">das Passwort wurde geändert</translation>
+        </message>
+        <message>
+            <source>Password now</source>
+            <translation type="unfinished">Jetziges Passwort</translation>
+        </message>
+        <message>
+            <source>the recovery key that was printed before is worth nothing any more</source>
+            <translation type="unfinished">der zuvor gedruckte Wiederherstellungsschlüssel gilt nicht mehr</translation>
+        </message>
+        <message>
+            <source>recovery key: {key}</source>
+            <translation type="unfinished">Wiederherstellungsschlüssel: {key}</translation>
+        </message>
+        <message>
+            <source>Print it and lock it away: it sets a new password, and opens the station's key in a backup. It is kept nowhere.</source>
+            <translation type="unfinished">Drucken Sie ihn aus und schließen Sie ihn weg: Er setzt ein neues Passwort und öffnet den Schlüssel der Station in einer Sicherung. Er wird nirgends aufbewahrt.</translation>
+        </message>
+        <message>
+            <source>{id:24} {title}: {items:#1 exercise|# exercises}</source>
+            <translation type="unfinished">{id:24} {title}: {items:#1 Übung|# Übungen}</translation>
+        </message>
+        <message>
+            <source>no courses in {folder}</source>
+            <translation type="unfinished">keine Kurse in {folder}</translation>
+        </message>
+        <message>
+            <source>{title} ({groups})</source>
+            <translation type="unfinished">{title} ({groups})</translation>
+        </message>
+        <message>
+            <source>, from {date}</source>
+            <translation type="unfinished">, ab {date}</translation>
+        </message>
+        <message>
+            <source>, until {date}</source>
+            <translation type="unfinished">, bis {date}</translation>
+        </message>
+        <message>
+            <source>  {exercise} (version {version}): {purpose}</source>
+            <translation type="unfinished">  {exercise} (Version {version}): {purpose}</translation>
+        </message>
+        <message>
+            <source>{title} was not saved: correct these, or import the exercises first</source>
+            <translation type="unfinished">{title} wurde nicht gespeichert: Berichtigen Sie dies oder nehmen Sie zuerst die Übungen auf</translation>
+        </message>
+        <message>
+            <source>{title} saved: {path}</source>
+            <translation type="unfinished">{title} gespeichert: {path}</translation>
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -13815,13 +14423,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>Nothing was imported. Correct these rows and import the roster again:</source>
             <translation type="unfinished">Nichts wurde importiert. Berichtigen Sie diese Zeilen und importieren Sie die Teilnehmerliste erneut:</translation>
         </message>
-        <message>
-            <source>1 student added, {m} updated</source>
-            <translation type="unfinished">1 Teilnehmer hinzugefügt, {m} aktualisiert</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} students added, {m} updated</source>
-            <translation type="unfinished">{n} Teilnehmer hinzugefügt, {m} aktualisiert</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Teilnehmer hinzugefügt, {m} geändert</numerusform>
+                <numerusform>{n} Teilnehmer hinzugefügt, {m} geändert</numerusform>
+            </translation>
         </message>
         <message>
             <source>Hand these out; they are kept nowhere.</source>
@@ -13867,13 +14474,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>{title} cannot be begun: {why}.</source>
             <translation type="unfinished">{title} kann nicht begonnen werden: {why}.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>Release {n} results of {title}?</source>
-            <translation type="unfinished">{n} Ergebnisse von {title} freigeben?</translation>
-        </message>
-        <message>
-            <source>Release 1 result of {title}?</source>
-            <translation type="unfinished">1 Ergebnis von {title} freigeben?</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Ergebnis von {title} freigeben?</numerusform>
+                <numerusform>{n} Ergebnisse von {title} freigeben?</numerusform>
+            </translation>
         </message>
         <message>
             <source>Release results</source>
@@ -13887,13 +14493,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>Release</source>
             <translation type="unfinished">Freigeben</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results released</source>
-            <translation type="unfinished">{n} Ergebnisse freigegeben</translation>
-        </message>
-        <message>
-            <source>1 result released</source>
-            <translation type="unfinished">1 Ergebnis freigegeben</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Ergebnis freigegeben</numerusform>
+                <numerusform>{n} Ergebnisse freigegeben</numerusform>
+            </translation>
         </message>
         <message>
             <source>Choose a student on the board first: click on the row.</source>
@@ -13959,13 +14564,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>{n} d ago</source>
             <translation type="unfinished">vor {n} T.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts count</source>
-            <translation type="unfinished">{n} Versuche zählen</translation>
-        </message>
-        <message>
-            <source>1 attempt counts</source>
-            <translation type="unfinished">1 Versuch zählt</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch zählt</numerusform>
+                <numerusform>{n} Versuche zählen</numerusform>
+            </translation>
         </message>
         <message>
             <source>trend {trend:+.1f} points a time</source>
@@ -14123,9 +14727,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>, in order</source>
             <translation type="unfinished">, der Reihe nach</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results wait for their release</source>
-            <translation type="unfinished">Ergebnisse, die auf Freigabe warten: {n}</translation>
+            <translation type="unfinished">
+                <numerusform>{n} Ergebnis wartet auf seine Freigabe</numerusform>
+                <numerusform>{n} Ergebnisse warten auf ihre Freigabe</numerusform>
+            </translation>
         </message>
         <message>
             <source>no exercises yet</source>
@@ -14280,10 +14887,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Bericht einer Gruppe</translation>
         </message>
         <message>
-            <source>{n} students, {m} exercises, {k} attempts that count: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">Teilnehmer: {n}, Übungen: {m}, Versuche, die zählen: {k} (bewertet, vergleichbar, von einem Menschen, nicht für ungültig erklärt).</translation>
-        </message>
-        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Noch kein Versuch eines angemeldeten Teilnehmers.</translation>
         </message>
@@ -14302,6 +14905,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>passed</source>
             <translation type="unfinished">bestanden</translation>
+        </message>
+        <message>
+            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
+            <translation type="unfinished">{students}, {exercises}, {attempts}: bewertet, vergleichbar, von einer Person, nicht für ungültig erklärt.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -14481,7 +15088,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Map entries for this target</source>
-            <translation type="unfinished">Einstichpunkte für dieses Ziel kartieren</translation>
+            <translation type="unfinished">Einstichpunkte kartieren</translation>
         </message>
         <message>
             <source>Clear</source>
@@ -14967,7 +15574,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Speed governor</source>
-            <translation type="unfinished">Geschwindigkeitsbegrenzer</translation>
+            <translation type="unfinished">Tempobegrenzer</translation>
         </message>
         <message>
             <source>Weakens the force when the needle moves faster than a hand would move it, and ends it when the needle has been let go.</source>
@@ -15562,14 +16169,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Andere Dateien: {count}…</translation>
         </message>
         <message>
-            <source>{count} series, none of which can be used as it is</source>
-            <translation type="unfinished">Serien: {count}, keine davon ist verwendbar, wie sie ist</translation>
-        </message>
-        <message>
-            <source>{count} series, {usable} of which can be used</source>
-            <translation type="unfinished">Serien: {count}, davon verwendbar: {usable}</translation>
-        </message>
-        <message>
             <source>Import CT into the library</source>
             <translation type="unfinished">CT in die Bibliothek importieren</translation>
         </message>
@@ -15756,6 +16355,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>The libraries cannot be listed: {error}</source>
             <translation type="unfinished">Die Bibliotheken lassen sich nicht auflisten: {error}</translation>
+        </message>
+        <message>
+            <source>This language was translated, and not reviewed by native radiologists.</source>
+            <translation type="unfinished">Diese Sprache wurde übersetzt, aber nicht von muttersprachlichen Radiologinnen und Radiologen durchgesehen.</translation>
         </message>
         <message>
             <source>Acus is under the Apache License 2.0 (LICENSE, NOTICE).</source>
@@ -16018,12 +16621,52 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Nicht jetzt</translation>
         </message>
         <message>
+            <source>mastered by {n}</source>
+            <translation type="unfinished">von {n} beherrscht</translation>
+        </message>
+        <message>
+            <source>mastered</source>
+            <translation type="unfinished">beherrscht</translation>
+        </message>
+        <message>
+            <source>not begun</source>
+            <translation type="unfinished">noch nicht begonnen</translation>
+        </message>
+        <message>
             <source>done {n}</source>
             <translation type="unfinished">gemacht: {n}</translation>
         </message>
         <message>
+            <source>best {points} of 100</source>
+            <translation type="unfinished">Bestwert {points} von 100</translation>
+        </message>
+        <message>
+            <source>mastered: passed twice in a row</source>
+            <translation type="unfinished">beherrscht: zweimal nacheinander bestanden</translation>
+        </message>
+        <message>
+            <source>passed once: one more pass in a row masters it</source>
+            <translation type="unfinished">einmal bestanden: Wer gleich noch einmal besteht, beherrscht sie</translation>
+        </message>
+        <message>
             <source>best {points}</source>
             <translation type="unfinished">Bestwert {points}</translation>
+        </message>
+        <message>
+            <source>No. {n} of the course</source>
+            <translation type="unfinished">Nr. {n} im Kurs</translation>
+        </message>
+        <message>
+            <source>Level {n}</source>
+            <translation type="unfinished">Stufe {n}</translation>
+        </message>
+        <message>
+            <source>Continue</source>
+            <translation type="unfinished">Weiter</translation>
+        </message>
+        <message>
+            <source>No exercise is open to you now.</source>
+            <translation type="unfinished">Jetzt steht Ihnen keine Übung offen.</translation>
         </message>
         <message>
             <source>No exercise holds these words: clear the search to see all.</source>
@@ -16042,6 +16685,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Zum ersten Mal hier?</translation>
         </message>
         <message>
+            <source>a name of your choice</source>
+            <translation type="unfinished">ein Name Ihrer Wahl</translation>
+        </message>
+        <message>
             <source>Your own CT</source>
             <translation type="unfinished">Ihr eigenes CT</translation>
         </message>
@@ -16058,8 +16705,24 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Sie üben als</translation>
         </message>
         <message>
+            <source>Rings: everybody's best here.</source>
+            <translation type="unfinished">Ringe: Bestwerte aller hier.</translation>
+        </message>
+        <message>
             <source>Sign in as a student to see what you have done.</source>
             <translation type="unfinished">Melden Sie sich als Teilnehmer an, um zu sehen, was Sie gemacht haben.</translation>
+        </message>
+        <message>
+            <source>Rings: best points without a name.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Ringe: beste Punkte ohne Namen.
+✔: zweimal nacheinander bestanden.</translation>
+        </message>
+        <message>
+            <source>Rings: best points of {name}.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Ringe: beste Punkte von {name}.
+✔: zweimal nacheinander bestanden.</translation>
         </message>
         <message>
             <source>Next (Enter)</source>
@@ -16076,6 +16739,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>The patient</source>
             <translation type="unfinished">Der Patient</translation>
+        </message>
+        <message>
+            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
+            <translation type="unfinished">Jede Übung hat ihren Patienten: ein CT und meist einen geplanten Pfad vom Einstichpunkt auf der Haut zum Ziel. Eingabe beginnt: zuerst eine Einweisung, dann der Versuch. Bei jeder Fertigkeit nimmt die Schwierigkeit von links nach rechts zu; ein Ring zeigt, wie weit Sie gekommen sind.</translation>
         </message>
         <message>
             <source>The slices</source>
@@ -17302,6 +17969,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Spitzenkraft, geschätzt</translation>
         </message>
         <message>
+            <source>Planned path</source>
+            <translation type="unfinished">Geplanter Pfad</translation>
+        </message>
+        <message>
             <source>Pleural angle</source>
             <translation type="unfinished">Pleurawinkel</translation>
         </message>
@@ -17344,6 +18015,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Relaxation of dimpled tissue</source>
             <translation type="unfinished">Entspannung eingedellten Gewebes</translation>
+        </message>
+        <message>
+            <source>Room about the planned path</source>
+            <translation type="unfinished">Freiraum um den geplanten Pfad</translation>
         </message>
         <message>
             <source>Side stiffness of layered tissue about the fulcrum</source>
@@ -17442,8 +18117,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Das Ziel weicht der Nadel aus</translation>
         </message>
         <message>
-            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel and that the robot can follow, place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
-            <translation type="unfinished">Ziel ist die Läsion in der Leber. Finden Sie einen Einstichpunkt, von dem ein gerader Pfad weder Rippe noch Lunge noch Gefäß trifft und dem der Roboter folgen kann, setzen Sie ihn (E oder die Karte der Einstichpunkte im Bereich Plan), und führen Sie dann die Nadel entlang Ihres eigenen Pfads ein. Eine Rippe hält die Nadel auf; wer eine Rippe, Lunge, Darm oder ein großes Gefäß trifft, hat nicht bestanden. Der Patient hält den Atem an.</translation>
+            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel, stays well away from them, is short and goes straight in, and that the robot can follow; place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. The path that you choose is half of the score. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
+            <translation type="unfinished">Ziel ist die Läsion in der Leber. Finden Sie einen Einstichpunkt, von dem ein gerader Pfad weder Rippe noch Lunge noch Gefäß trifft, weit von ihnen weg bleibt, kurz ist und gerade hineinführt, und dem der Roboter folgen kann; setzen Sie ihn (E oder die Karte der Einstichpunkte im Bereich Plan), und führen Sie dann die Nadel entlang Ihres eigenen Pfads ein. Der Pfad, den Sie wählen, ist die Hälfte der Punkte. Eine Rippe hält die Nadel auf; wer eine Rippe, Lunge, Darm oder ein großes Gefäß trifft, hat nicht bestanden. Der Patient hält den Atem an.</translation>
         </message>
         <message>
             <source>The tensegrity needle holder: workspace, closure, conditioning, stiffness, encoders</source>
@@ -17536,6 +18211,139 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>You hold the handle of a long tool that goes through a trocar. Move the handle to the left and the tip goes to the right, the further the deeper it is. Touch the numbered targets one after the other: bring the tip onto the target that is marked, and hold it there until the next one is. Go straight to each; press Enter after the last.</source>
             <translation type="unfinished">Sie halten den Griff eines langen Instruments, das durch einen Trokar geht. Bewegen Sie den Griff nach links, geht die Spitze nach rechts, und zwar umso weiter, je tiefer sie ist. Berühren Sie die nummerierten Ziele eines nach dem anderen: Bringen Sie die Spitze auf das markierte Ziel und halten Sie sie dort, bis das nächste markiert ist. Gehen Sie zu jedem auf geradem Weg; drücken Sie nach dem letzten Eingabe.</translation>
+        </message>
+        <message numerus="yes">
+            <source>, {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>, {n} Versuch</numerusform>
+                <numerusform>, {n} Versuche</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
+            <translation type="unfinished">
+                <numerusform>keine DICOM-Serie in {listing_path}: {n} Datei übergangen ({first_path_name}: {first_reason})</numerusform>
+                <numerusform>keine DICOM-Serie in {listing_path}: {n} Dateien übergangen ({first_path_name}: {first_reason})</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>pick {n} more beads in the CT, or none</source>
+            <translation type="unfinished">
+                <numerusform>wählen Sie noch {n} Kugel im CT, oder keine</numerusform>
+                <numerusform>wählen Sie noch {n} Kugeln im CT, oder keine</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>the names of the pictures speak of {n} cameras; two are needed, e.g. left01.png and right01.png</source>
+            <translation type="unfinished">
+                <numerusform>die Namen der Bilder sprechen von {n} Kamera; zwei werden gebraucht, z. B. left01.png und right01.png</numerusform>
+                <numerusform>die Namen der Bilder sprechen von {n} Kameras; zwei werden gebraucht, z. B. left01.png und right01.png</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>touch {n} more fiducials</source>
+            <translation type="unfinished">
+                <numerusform>berühren Sie noch {n} Referenzmarke</numerusform>
+                <numerusform>berühren Sie noch {n} Referenzmarken</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{name}: {n} contours {reason} left out</source>
+            <translation type="unfinished">
+                <numerusform>{name}: {n} Kontur {reason} ausgelassen</numerusform>
+                <numerusform>{name}: {n} Konturen {reason} ausgelassen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch</numerusform>
+                <numerusform>{n} Versuche</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch liegt in {folder}, wo frühere Versionen Versuche aufbewahrten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` zeigt alle</numerusform>
+                <numerusform>{n} Versuche liegen in {folder}, wo frühere Versionen Versuche aufbewahrten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` zeigt alle</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch eines Teilnehmers ist für den Kursleiter: {variable} enthält das Passwort</numerusform>
+                <numerusform>{n} Versuche von Teilnehmer sind für den Kursleiter: {variable} enthält das Passwort</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts that count</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch, der zählt</numerusform>
+                <numerusform>{n} Versuche, die zählen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} contours that are in the file twice counted once</source>
+            <translation type="unfinished">
+                <numerusform>{n} Kontur, die doppelt in der Datei steht, einmal gezählt</numerusform>
+                <numerusform>{n} Konturen, die doppelt in der Datei stehen, einmal gezählt</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} exercises</source>
+            <translation type="unfinished">
+                <numerusform>{n} Übung</numerusform>
+                <numerusform>{n} Übungen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files hold bytes behind the pixels, which are left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} Datei enthält hinter den Bildpunkten Bytes, die ausgelassen werden</numerusform>
+                <numerusform>{n} Dateien enthalten hinter den Bildpunkten Bytes, die ausgelassen werden</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} gaps of missing slices left empty</source>
+            <translation type="unfinished">
+                <numerusform>{n} Lücke fehlender Schichten leer gelassen</numerusform>
+                <numerusform>{n} Lücken fehlender Schichten leer gelassen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} regions {reason} left out: the file does not say what it is</source>
+            <translation type="unfinished">
+                <numerusform>{n} Region {reason} ausgelassen: Die Datei sagt nicht, was sie ist</numerusform>
+                <numerusform>{n} Regionen {reason} ausgelassen: Die Datei sagt nicht, was sie sind</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, none of which can be used as it is</source>
+            <translation type="unfinished">
+                <numerusform>{n} Serie, die so nicht verwendbar ist</numerusform>
+                <numerusform>{n} Serien, von denen keine so verwendbar ist</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, {usable} of which can be used</source>
+            <translation type="unfinished">
+                <numerusform>{n} Serie, {usable} davon verwendbar</numerusform>
+                <numerusform>{n} Serien, {usable} davon verwendbar</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} students</source>
+            <translation type="unfinished">
+                <numerusform>{n} Teilnehmer</numerusform>
+                <numerusform>{n} Teilnehmer</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} {name} points: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
+            <translation type="unfinished">
+                <numerusform>{n} Punkt „{name}“: Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</numerusform>
+                <numerusform>{n} Punkte „{name}“: Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</numerusform>
+            </translation>
         </message>
         <message>
             <source>Depth only: you begin aligned; only the depth counts, and nothing may be met that the exercise forbids.</source>
@@ -17718,52 +18526,334 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">--full und --quick verlangen beides: eines davon weglassen</translation>
         </message>
         <message>
-            <source>The same once more: two passes in a row lead on.</source>
-            <translation type="unfinished">Noch einmal dieselbe: Zweimal nacheinander bestanden führt weiter.</translation>
+            <source>the output could not be written: {reason}; free some space there</source>
+            <translation type="unfinished">die Ausgabe konnte nicht geschrieben werden: {reason}; schaffen Sie dort Platz</translation>
         </message>
         <message>
-            <source>mastered by {n}</source>
-            <translation type="unfinished">von {n} beherrscht</translation>
+            <source>a question was not answered; nothing was done</source>
+            <translation type="unfinished">eine Frage wurde nicht beantwortet; nichts wurde getan</translation>
         </message>
         <message>
-            <source>mastered</source>
-            <translation type="unfinished">beherrscht</translation>
+            <source>Invalid value: {reason}</source>
+            <translation type="unfinished">Ungültiger Wert: {reason}</translation>
         </message>
         <message>
-            <source>not begun</source>
-            <translation type="unfinished">noch nicht begonnen</translation>
+            <source>no daily check was made yet</source>
+            <translation type="unfinished">noch keine Tageskontrolle wurde gemacht</translation>
         </message>
         <message>
-            <source>best {points} of 100</source>
-            <translation type="unfinished">Bestwert {points} von 100</translation>
+            <source>Rest the tip in {name} and hold still; press Enter</source>
+            <translation type="unfinished">Legen Sie die Spitze in {name} und halten Sie still; drücken Sie die Eingabetaste</translation>
         </message>
         <message>
-            <source>mastered: passed twice in a row</source>
-            <translation type="unfinished">beherrscht: zweimal nacheinander bestanden</translation>
+            <source>Instructor's password</source>
+            <translation type="unfinished">Passwort des Kursleiters</translation>
         </message>
         <message>
-            <source>passed once: one more pass in a row masters it</source>
-            <translation type="unfinished">einmal bestanden: Wer gleich noch einmal besteht, beherrscht sie</translation>
+            <source>compiling for the first time, up to a minute …</source>
+            <translation type="unfinished">erstmaliges Übersetzen des Programms, bis zu einer Minute …</translation>
         </message>
         <message>
-            <source>No. {n} of the course</source>
-            <translation type="unfinished">Nr. {n} im Kurs</translation>
+            <source>{exercise} on the simulated device {device}</source>
+            <translation type="unfinished">{exercise} auf dem simulierten Gerät {device}</translation>
         </message>
         <message>
-            <source>Level {n}</source>
-            <translation type="unfinished">Stufe {n}</translation>
+            <source>{exercise} on the real device {device}</source>
+            <translation type="unfinished">{exercise} auf dem echten Gerät {device}</translation>
         </message>
         <message>
-            <source>Continue</source>
-            <translation type="unfinished">Weiter</translation>
+            <source>{energy:.1f} mJ</source>
+            <translation type="unfinished">{energy:.1f} mJ</translation>
         </message>
         <message>
-            <source>No exercise is open to you now.</source>
-            <translation type="unfinished">Jetzt steht Ihnen keine Übung offen.</translation>
+            <source>energy</source>
+            <translation type="unfinished">Energie</translation>
         </message>
         <message>
-            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
-            <translation type="unfinished">Jede Übung hat ihren Patienten: ein CT und meist einen geplanten Pfad vom Einstichpunkt auf der Haut zum Ziel. Eingabe beginnt: zuerst eine Einweisung, dann der Versuch. Bei jeder Fertigkeit nimmt die Schwierigkeit von links nach rechts zu; ein Ring zeigt, wie weit Sie gekommen sind.</translation>
+            <source>bound</source>
+            <translation type="unfinished">Grenze</translation>
+        </message>
+        <message>
+            <source>cost</source>
+            <translation type="unfinished">Kosten</translation>
+        </message>
+        <message>
+            <source>model</source>
+            <translation type="unfinished">Modell</translation>
+        </message>
+        <message>
+            <source>why</source>
+            <translation type="unfinished">Grund</translation>
+        </message>
+        <message>
+            <source>note</source>
+            <translation type="unfinished">Hinweis</translation>
+        </message>
+        <message>
+            <source>  no effects</source>
+            <translation type="unfinished">  keine Effekte</translation>
+        </message>
+        <message>
+            <source>
+  touches {targets} targets, each for {dwell:g} s within {radius:g} mm; the hand moves the tool's handle</source>
+            <translation type="unfinished">
+  berührt {targets} Ziele, jedes {dwell:g} s lang innerhalb von {radius:g} mm; die Hand bewegt den Griff des Instruments</translation>
+        </message>
+        <message>
+            <source>    {target}  at ({place}) mm LPS, {depth:.0f} mm deep: 1 mm of hand moves the tip {scale:.2f} mm the other way</source>
+            <translation type="unfinished">    {target}  bei ({place}) mm LPS, {depth:.0f} mm tief: 1 mm der Hand bewegt die Spitze {scale:.2f} mm in die Gegenrichtung</translation>
+        </message>
+        <message>
+            <source>
+  {metric} passes to {limit:g}: {reason}</source>
+            <translation type="unfinished">
+  {metric} besteht bis {limit:g}: {reason}</translation>
+        </message>
+        <message>
+            <source>
+  refused {kind}: {reason}</source>
+            <translation type="unfinished">
+  abgelehnt {kind}: {reason}</translation>
+        </message>
+        <message>
+            <source>  the patient calls for</source>
+            <translation type="unfinished">  der Patient verlangt</translation>
+        </message>
+        <message>
+            <source>      left out: {reason}</source>
+            <translation type="unfinished">      weggelassen: {reason}</translation>
+        </message>
+        <message>
+            <source>      absent</source>
+            <translation type="unfinished">      fehlt</translation>
+        </message>
+        <message>
+            <source>      absent, {cost}</source>
+            <translation type="unfinished">      fehlt, {cost}</translation>
+        </message>
+        <message>
+            <source>  add it: `acus exercise suggest {name}`</source>
+            <translation type="unfinished">  ergänzen: `acus exercise suggest {name}`</translation>
+        </message>
+        <message>
+            <source>{time:.2f} ms for each picture of a camera, nothing of a tick</source>
+            <translation type="unfinished">{time:.2f} ms je Bild einer Kamera, nichts von einem Takt</translation>
+        </message>
+        <message>
+            <source>{time:.0f} ns per tick, {share:.4f} % of 1 ms</source>
+            <translation type="unfinished">{time:.0f} ns je Takt, {share:.4f} % von 1 ms</translation>
+        </message>
+        <message>
+            <source>{items}, {next}</source>
+            <translation type="unfinished">{items}, {next}</translation>
+        </message>
+        <message>
+            <source>{items} and {last}</source>
+            <translation type="unfinished">{items} und {last}</translation>
+        </message>
+        <message>
+            <source>0.5</source>
+            <translation type="unfinished">0,5</translation>
+        </message>
+        <message>
+            <source>%Y-%m-%d %H:%M</source>
+            <translation type="unfinished">%d.%m.%Y, %H:%M</translation>
+        </message>
+        <message>
+            <source>%Y-%m-%d</source>
+            <translation type="unfinished">%d.%m.%Y</translation>
+        </message>
+        <message>
+            <source>{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}{trial_states:? (tried with {trial_states} states in {trial_s} s)}}</source>
+            <translation type="unfinished">{refused:?✖|✔} {law}: {refused:?abgelehnt: {refused}|{title}{trial_states:? (mit {trial_states} Zuständen in {trial_s} s erprobt)}}</translation>
+        </message>
+        <message>
+            <source>none; `acus pacs add NAME` writes {file}</source>
+            <translation type="unfinished">keiner; `acus pacs add NAME` schreibt {file}</translation>
+        </message>
+        <message>
+            <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
+            <translation type="unfinished">{name} ist eingerichtet; `acus pacs echo --pacs {name}` fragt, ob es erreichbar ist</translation>
+        </message>
+        <message>
+            <source>{name} is forgotten</source>
+            <translation type="unfinished">{name} ist vergessen</translation>
+        </message>
+        <message>
+            <source>{name} answers in {time:.1f} ms</source>
+            <translation type="unfinished">{name} antwortet in {time:.1f} ms</translation>
+        </message>
+        <message>
+            <source>nothing matches</source>
+            <translation type="unfinished">nichts passt</translation>
+        </message>
+        <message>
+            <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
+            <translation type="unfinished">bei 100 % drucken, die Linie von 100 mm prüfen, ausschneiden, falten, kleben (docs/pen.md)</translation>
+        </message>
+        <message>
+            <source>tip measured</source>
+            <translation type="unfinished">Spitze gemessen</translation>
+        </message>
+        <message>
+            <source>tip by the drawing: `acus pen calibrate`</source>
+            <translation type="unfinished">Spitze nach der Zeichnung: `acus pen calibrate`</translation>
+        </message>
+        <message>
+            <source>stand the tip in a dimple on the sheet and rock the pen to every side …</source>
+            <translation type="unfinished">stellen Sie die Spitze in eine Mulde auf dem Blatt und schwenken Sie den Stift nach allen Seiten …</translation>
+        </message>
+        <message>
+            <source>now lay the pen into a groove and roll it about itself by a quarter turn or more …</source>
+            <translation type="unfinished">legen Sie den Stift nun in eine Rille und rollen Sie ihn um sich selbst, eine Vierteldrehung oder mehr …</translation>
+        </message>
+        <message>
+            <source>no files of your own yet; save them in these folders (make what is missing):</source>
+            <translation type="unfinished">noch keine eigenen Dateien; speichern Sie sie in diesen Ordnern (legen Sie an, was fehlt):</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts in {folder}, {deleted} deleted</source>
+            <translation type="unfinished">{attempts} Versuche in {folder}, {deleted} gelöscht</translation>
+        </message>
+        <message>
+            <source>index: {index:?{index}|in memory, the folder can only be read}</source>
+            <translation type="unfinished">Verzeichnis: {index:?{index}|im Speicher, der Ordner ist nur lesbar}</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts indexed, {gone} of the old index are gone</source>
+            <translation type="unfinished">{attempts} Versuche verzeichnet, {gone} des alten Verzeichnisses sind weg</translation>
+        </message>
+        <message>
+            <source>the station's key in it was sealed by an earlier build, and nothing opens it any more: change the password (`acus people instructor`), which prints a new recovery key, and make the backup again</source>
+            <translation type="unfinished">der Schlüssel der Station darin wurde von einem früheren Programm versiegelt, und nichts öffnet ihn mehr: Ändern Sie das Passwort (`acus people instructor`), was einen neuen Wiederherstellungsschlüssel druckt, und machen Sie die Sicherung noch einmal</translation>
+        </message>
+        <message>
+            <source>without the station's key: set a password first (`acus people instructor`) if its records are to be verified on another computer</source>
+            <translation type="unfinished">ohne den Schlüssel der Station: Setzen Sie zuerst ein Passwort (`acus people instructor`), wenn ihre Aufzeichnungen auf einem anderen Rechner geprüft werden sollen</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} written to {files}</source>
+            <translation type="unfinished">{records:#1 Aufzeichnung|# Aufzeichnungen} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>not in it: {}</source>
+            <translation type="unfinished">nicht darin: {}</translation>
+        </message>
+        <message>
+            <source>{records} records restored, {kept} were here already</source>
+            <translation type="unfinished">{records} Aufzeichnungen wiederhergestellt, {kept} waren schon hier</translation>
+        </message>
+        <message>
+            <source>✖ {} is another record here: the one here was kept</source>
+            <translation type="unfinished">✖ {} ist hier eine andere Aufzeichnung: Die hiesige wurde behalten</translation>
+        </message>
+        <message>
+            <source>{erased} records left out: their person was erased</source>
+            <translation type="unfinished">{erased} Aufzeichnungen ausgelassen: Ihre Person wurde gelöscht</translation>
+        </message>
+        <message>
+            <source>✖ not taken: {}</source>
+            <translation type="unfinished">✖ nicht übernommen: {}</translation>
+        </message>
+        <message>
+            <source>{deleted:#1 attempt|# attempts} deleted for good</source>
+            <translation type="unfinished">{deleted:#1 Versuch|# Versuche} endgültig gelöscht</translation>
+        </message>
+        <message>
+            <source>never warns</source>
+            <translation type="unfinished">warnt nie</translation>
+        </message>
+        <message>
+            <source>the record was written while it was read</source>
+            <translation type="unfinished">die Aufzeichnung wurde geschrieben, während sie gelesen wurde</translation>
+        </message>
+        <message>
+            <source>the record is not the one that was signed</source>
+            <translation type="unfinished">die Aufzeichnung ist nicht die, die signiert wurde</translation>
+        </message>
+        <message>
+            <source>the list shows another {key} than was signed</source>
+            <translation type="unfinished">die Liste zeigt bei {key} anderes, als signiert wurde</translation>
+        </message>
+        <message>
+            <source>the {part} in it is not the one that was signed</source>
+            <translation type="unfinished">der Teil {part} darin ist nicht der, der signiert wurde</translation>
+        </message>
+        <message>
+            <source>no signature stands beside it</source>
+            <translation type="unfinished">es liegt keine Signatur daneben</translation>
+        </message>
+        <message>
+            <source>its signature cannot be read: {reason}</source>
+            <translation type="unfinished">die Signatur lässt sich nicht lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>its signature is damaged</source>
+            <translation type="unfinished">die Signatur ist beschädigt</translation>
+        </message>
+        <message>
+            <source>signed by another station ({station})</source>
+            <translation type="unfinished">von einer anderen Station signiert ({station})</translation>
+        </message>
+        <message>
+            <source>the signature beside it is that of another attempt</source>
+            <translation type="unfinished">die Signatur daneben gehört zu einem anderen Versuch</translation>
+        </message>
+        <message>
+            <source>its signature is not this station's</source>
+            <translation type="unfinished">die Signatur ist nicht die dieser Station</translation>
+        </message>
+        <message>
+            <source>{where} has no tolerance: give it one, with its weight</source>
+            <translation type="unfinished">{where} hat keine Toleranz: Geben Sie eine an, mit ihrem Gewicht</translation>
+        </message>
+        <message>
+            <source>{where} says where the needle has to end, which is the same for every hand: change its tolerance</source>
+            <translation type="unfinished">{where} sagt, wo die Nadel enden muss, und das ist für jede Hand gleich: Ändern Sie die Toleranz</translation>
+        </message>
+        <message>
+            <source>{where} runs against the bands of its tolerance</source>
+            <translation type="unfinished">{where} läuft den Bereichen der Toleranz entgegen</translation>
+        </message>
+        <message>
+            <source>nobody labelled what most of the planned path goes through</source>
+            <translation type="unfinished">niemand hat bezeichnet, wodurch der größte Teil des geplanten Pfads führt</translation>
+        </message>
+        <message>
+            <source>the entry does not lie on the skin</source>
+            <translation type="unfinished">der Einstichpunkt liegt nicht auf der Haut</translation>
+        </message>
+        <message>
+            <source>nothing that a needle should not meet is near the planned path</source>
+            <translation type="unfinished">nahe am geplanten Pfad ist nichts, was eine Nadel nicht treffen soll</translation>
+        </message>
+        <message>
+            <source>the path was given, or no tissue field told what lies on it</source>
+            <translation type="unfinished">der Pfad war vorgegeben, oder kein Gewebefeld sagte, was auf ihm liegt</translation>
+        </message>
+        <message>
+            <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">Der Pfad führt in {depth_mm:.0f} mm Tiefe durch {length_mm:.1f} mm {tissue}.</translation>
+        </message>
+        <message>
+            <source>The path is {length_mm:.0f} mm long; {most_mm:.0f} mm are allowed.</source>
+            <translation type="unfinished">Der Pfad ist {length_mm:.0f} mm lang; {most_mm:.0f} mm sind erlaubt.</translation>
+        </message>
+        <message>
+            <source>The path lies {angle:.0f}° off straight in at the skin; {most:.0f}° are allowed.</source>
+            <translation type="unfinished">Der Pfad weicht an der Haut um {angle:.0f}° von der Senkrechten ab; {most:.0f}° sind erlaubt.</translation>
+        </message>
+        <message>
+            <source>The path comes within {mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">Der Pfad kommt in {depth_mm:.0f} mm Tiefe bis auf {mm:.1f} mm heran an: {tissue}.</translation>
+        </message>
+        <message>
+            <source>It meets the pleura at {angle:.0f}°.</source>
+            <translation type="unfinished">Er trifft die Pleura unter {angle:.0f}°.</translation>
+        </message>
+        <message>
+            <source>It is {length_mm:.0f} mm long and goes in {angle:.0f}° off straight.</source>
+            <translation type="unfinished">Er ist {length_mm:.0f} mm lang und weicht beim Einstich um {angle:.0f}° von der Senkrechten ab.</translation>
         </message>
         <message>
             <source>Hand and tissue</source>
@@ -17784,26 +18874,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Forschungsgeräte</translation>
-        </message>
-        <message>
-            <source>a name of your choice</source>
-            <translation type="unfinished">ein Name Ihrer Wahl</translation>
-        </message>
-        <message>
-            <source>Rings: best points without a name.
-✔: passed twice in a row.</source>
-            <translation type="unfinished">Ringe: beste Punkte ohne Namen.
-✔: zweimal nacheinander bestanden.</translation>
-        </message>
-        <message>
-            <source>Rings: best points of {name}.
-✔: passed twice in a row.</source>
-            <translation type="unfinished">Ringe: beste Punkte von {name}.
-✔: zweimal nacheinander bestanden.</translation>
-        </message>
-        <message>
-            <source>Rings: everybody's best here.</source>
-            <translation type="unfinished">Ringe: Bestwerte aller hier.</translation>
         </message>
     </context>
 </TS>

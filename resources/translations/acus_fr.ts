@@ -692,6 +692,38 @@
             <translation type="unfinished">l’entrée s’est terminée avant la routine ; rien n’a été gardé</translation>
         </message>
         <message>
+            <source>places        agree within {disagreement_mm:.2f} mm</source>
+            <translation type="unfinished">positions     concordent à {disagreement_mm:.2f} mm près</translation>
+        </message>
+        <message>
+            <source>{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</source>
+            <translation type="unfinished">{key:13} se trouve à {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm</translation>
+        </message>
+        <message>
+            <source>residual      {rms_px:.3f} px in {pictures:#} pictures</source>
+            <translation type="unfinished">résidu        {rms_px:.3f} px sur {pictures:#} images</translation>
+        </message>
+        <message>
+            <source>{scale:?scale         {scale:.5f} ± {scale_sd:.5f} of the board's size}</source>
+            <translation type="unfinished">{scale:?échelle       {scale:.5f} ± {scale_sd:.5f} de la taille de la mire}</translation>
+        </message>
+        <message>
+            <source>{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm (standard deviation per axis)}</source>
+            <translation type="unfinished">{fulcrum_sd_mm:?pivot         sûr à ± {fulcrum_sd_mm:.2f} mm (écart type par axe)}</translation>
+        </message>
+        <message>
+            <source>look at       {}</source>
+            <translation type="unfinished">à regarder    {}</translation>
+        </message>
+        <message>
+            <source>not used      {name}: {text}</source>
+            <translation type="unfinished">non utilisé   {name}: {text}</translation>
+        </message>
+        <message>
+            <source>{kept:?in use from now on: {id}|not kept: add --keep to use it}</source>
+            <translation type="unfinished">{kept:?utilisé désormais : {id}|non conservé : ajoutez --keep pour l’utiliser}</translation>
+        </message>
+        <message>
             <source>--at {place!r} is not {pose}: millimetres and degrees, e.g. -60,180,90,180,0,0</source>
             <translation type="unfinished">--at {place!r} n’est pas {pose} : millimètres et degrés, p. ex. -60,180,90,180,0,0</translation>
         </message>
@@ -702,6 +734,10 @@
         <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out prend l’objectif d’une seule caméra ; ces images sont de {groups} : donnez un dossier pour chacune, ou utilisez `acus calibrate stereo`</translation>
+        </message>
+        <message>
+            <source>not written and not kept; --force does it all the same</source>
+            <translation type="unfinished">ni écrit ni conservé ; --force le fait quand même</translation>
         </message>
         <message>
             <source>name the folder of the pictures: --images DIR</source>
@@ -720,16 +756,76 @@
             <translation type="unfinished">--names {names!r} n’est pas deux noms, p. ex. left,right</translation>
         </message>
         <message>
+            <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
+            <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm mis de côté|non vérifié sur des vues mises de côté}  {world:?monde|sans monde}{found_bad:?  JUGÉ MAUVAIS : {found_bad}}}</translation>
+        </message>
+        <message>
+            <source>no calibrations in {folder}</source>
+            <translation type="unfinished">aucun étalonnage dans {folder}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind} : seuls yaml et ros peuvent être écrits</translation>
+        </message>
+        <message>
+            <source>{id} written to {files}</source>
+            <translation type="unfinished">{id} écrit dans {files}</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
             <translation type="unfinished">--out {out} : seul .pdf peut être écrit</translation>
         </message>
         <message>
+            <source>{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}</source>
+            <translation type="unfinished">{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm sur {paper} : {file}</translation>
+        </message>
+        <message>
+            <source>{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or one with an odd and an even count of corners, does not}</source>
+            <translation type="unfinished">{ambiguous:?remarque : cette mire est identique après un demi-tour ; une mire ChArUco, ou une mire avec un nombre pair et un nombre impair de coins, ne l’est pas}</translation>
+        </message>
+        <message>
+            <source>print at 100 %, not fitted to the page, and measure the line of 100 mm</source>
+            <translation type="unfinished">imprimez à 100 %, sans ajuster à la page, et mesurez la ligne de 100 mm</translation>
+        </message>
+        <message>
+            <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
+            <translation type="unfinished">incertitude   l’incertitude propre à l’étalonnage n’est pas connue : aucun rayon indiqué ne la comprend</translation>
+        </message>
+        <message>
+            <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
+            <translation type="unfinished">{in_use:?utilisé : {in_use}|aucun étalonnage n’est utilisé}</translation>
+        </message>
+        <message>
             <source>--lens {lens!r}: there are {known_lenses}; equidistant is the fisheye model</source>
             <translation type="unfinished">--lens {lens!r} : il y a {known_lenses} ; equidistant est le modèle fisheye</translation>
+        </message>
+        <message>
+            <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
+            <translation type="unfinished">  non vérifié : la taille de la mire ; indiquez --baseline-mm ou une seconde mire (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>  not validated: no pairs were held back (--hold-back N)</source>
+            <translation type="unfinished">  non validé : aucune paire n’a été mise de côté (--hold-back N)</translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation type="unfinished">écarté</translation>
+        </message>
+        <message>
+            <source>no camera is plugged in</source>
+            <translation type="unfinished">aucune caméra n’est branchée</translation>
+        </message>
+        <message>
+            <source>saved in {file}</source>
+            <translation type="unfinished">enregistré dans {file}</translation>
+        </message>
+        <message>
+            <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
+            <translation type="unfinished">les deux caméras voient {share:.0%} du cône de l’aiguille ({basis})</translation>
+        </message>
+        <message>
+            <source>not measured; use --display</source>
+            <translation type="unfinished">non mesuré ; utilisez --display</translation>
         </message>
         <message>
             <source>{depths!r} is no range of depths; give for example -30,120</source>
@@ -752,6 +848,18 @@
             <translation type="unfinished">le test demande un vrai écran qu’une caméra puisse voir ; il n’y en a pas</translation>
         </message>
         <message>
+            <source>the driver's</source>
+            <translation type="unfinished">ceux du pilote</translation>
+        </message>
+        <message>
+            <source>of the delivery, less the latency</source>
+            <translation type="unfinished">ceux de la livraison, moins la latence</translation>
+        </message>
+        <message>
+            <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
+            <translation type="unfinished">couleur du marqueur : le rouge habituel (dans le panneau du suivi, Capter en prend une autre)</translation>
+        </message>
+        <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
             <translation type="unfinished">indiquez un point : soit --voxel I,J,K, soit --sop UID avec --pixel COL,ROW</translation>
         </message>
@@ -768,8 +876,16 @@
             <translation type="unfinished">--sop UID et --pixel COL,ROW vont ensemble ; donnez les deux</translation>
         </message>
         <message>
+            <source>LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|no HU: padding, nothing was measured there}</source>
+            <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} UH|pas d’UH : remplissage, rien n’y a été mesuré}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r} : trois nombres X,Y,Z en mm</translation>
+        </message>
+        <message>
+            <source>the library is empty; `acus ct import DIR` takes a CT in</source>
+            <translation type="unfinished">la bibliothèque est vide ; `acus ct import DIR` y ajoute un scanner</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -788,20 +904,88 @@
             <translation type="unfinished">{option} {argument!r} n’est pas {form} : {count} nombres entiers, sans espaces</translation>
         </message>
         <message>
+            <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
+            <translation type="unfinished">aucun port série ; branchez le robot ou essayez `acus device emulate`</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">le robot a répondu mais n’envoie pas d’angles articulaires ; voir `acus device test`</translation>
+        </message>
+        <message>
+            <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
+            <translation type="unfinished">{level}  {id}  version {version}  {title:~}{shipped:?|  (la vôtre)}</translation>
+        </message>
+        <message>
+            <source>✖ cannot be used: {reason}</source>
+            <translation type="unfinished">✖ inutilisable : {reason}</translation>
         </message>
         <message>
             <source>--ct DIR needs --plan FILE: entry and target lie in that CT</source>
             <translation type="unfinished">--ct DIR demande --plan FILE : le point d’entrée et la cible sont dans ce CT</translation>
         </message>
         <message>
+            <source>✔ {exercise}: {id}, version {version}</source>
+            <translation type="unfinished">✔ {exercise} : {id}, version {version}</translation>
+        </message>
+        <message>
+            <source># nothing is absent without a reason in {id}, version {version}</source>
+            <translation type="unfinished"># rien ne manque sans raison dans {id}, version {version}</translation>
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is in the file</source>
+            <translation type="unfinished">  le scanner {manifest.ct.digest:.12}… est dans le fichier</translation>
+        </message>
+        <message>
+            <source>  CT {manifest.ct.digest:.12}… is not in the file</source>
+            <translation type="unfinished">  le scanner {manifest.ct.digest:.12}… n’est pas dans le fichier</translation>
+        </message>
+        <message>
+            <source>{file}: {manifest.id}, version {manifest.exercise_version}</source>
+            <translation type="unfinished">{file} : {manifest.id}, version {manifest.exercise_version}</translation>
+        </message>
+        <message>
+            <source>{id}, version {version} {known:?was there already|taken in}</source>
+            <translation type="unfinished">{id}, version {version}, {known:?était déjà là|ajoutée}</translation>
+        </message>
+        <message>
             <source>there is no script {script!r}; there are {scripts}</source>
             <translation type="unfinished">il n’y a pas de script {script!r} ; il y a {scripts}</translation>
         </message>
         <message>
+            <source>{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # without a score|  # without a score|}</source>
+            <translation type="unfinished">{skill:&lt;12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s{without_score:#  # sans note|  # sans note|}</translation>
+        </message>
+        <message>
+            <source>skill        median    quartiles  passed   time</source>
+            <translation type="unfinished">niveau       médiane   quartiles  réussite temps</translation>
+        </message>
+        <message>
+            <source>all skills in their order: {ordered_seeds:.0%} of the seeds</source>
+            <translation type="unfinished">tous les niveaux dans leur ordre : {ordered_seeds:.0%} des graines</translation>
+        </message>
+        <message>
+            <source>neighbouring skills ordered right, any seed with any: {ordered_share:.0%}</source>
+            <translation type="unfinished">niveaux voisins bien ordonnés, toute graine avec toute autre : {ordered_share:.0%}</translation>
+        </message>
+        <message>
+            <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
+            <translation type="unfinished">{id}  {plate}  {touched} touchés, {picked} désignés  {rig}  {trusted:?bon|ne convient pas}</translation>
+        </message>
+        <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
             <translation type="unfinished">--target {target} : il faut trois nombres X,Y,Z en mm</translation>
+        </message>
+        <message>
+            <source>nobody and nothing to show: add students first</source>
+            <translation type="unfinished">personne ni rien à montrer : ajoutez d’abord des étudiants</translation>
+        </message>
+        <message>
+            <source>{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}</source>
+            <translation type="unfinished">{started:@}  {total:5.1f}  meilleur {best:5.1f}  médiane {median:5.1f}</translation>
+        </message>
+        <message>
+            <source>{pseudonym} has no attempt at {exercise} that counts</source>
+            <translation type="unfinished">{pseudonym} n’a aucun essai de {exercise} qui compte</translation>
         </message>
         <message>
             <source>{form}: the forms are {forms}</source>
@@ -812,24 +996,220 @@
             <translation type="unfinished">--student vaut pour pdf ; les tableaux contiennent tout le monde</translation>
         </message>
         <message>
+            <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
+            <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} de {students:#1 étudiant|# étudiants|0 étudiant} dans {files}</translation>
+        </message>
+        <message>
+            <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
+            <translation type="unfinished">meilleur {best:3.0f}, dernier {last:3.0f}, {trend}, {attempts}, il y a {days:.1f} jours</translation>
+        </message>
+        <message>
+            <source>no trend yet</source>
+            <translation type="unfinished">pas encore de tendance</translation>
+        </message>
+        <message>
+            <source>{change:+.1f} a time</source>
+            <translation type="unfinished">{change:+.1f} par essai</translation>
+        </message>
+        <message>
+            <source> ({others} not counted)</source>
+            <translation type="unfinished"> ({others} non comptés)</translation>
+        </message>
+        <message>
             <source>--ct {ct} does not exist; name a folder or file with a CT</source>
             <translation type="unfinished">--ct {ct} n’existe pas ; indiquez un dossier ou un fichier avec un CT</translation>
+        </message>
+        <message>
+            <source>attempts are kept in {folder}</source>
+            <translation type="unfinished">les essais sont conservés dans {folder}</translation>
+        </message>
+        <message>
+            <source>no sessions in {folder}</source>
+            <translation type="unfinished">aucune session dans {folder}</translation>
+        </message>
+        <message>
+            <source>score: {verdict}</source>
+            <translation type="unfinished">note : {verdict}</translation>
+        </message>
+        <message>
+            <source>signature: {verdict}</source>
+            <translation type="unfinished">signature : {verdict}</translation>
+        </message>
+        <message>
+            <source>admitted by the instructor: {reason}</source>
+            <translation type="unfinished">admis par le formateur : {reason}</translation>
+        </message>
+        <message>
+            <source>{file} is not sealed by this station: lists read the record</source>
+            <translation type="unfinished">{file} n’est pas scellé par ce poste : les listes lisent l’enregistrement</translation>
+        </message>
+        <message>
+            <source>the index was altered: {problem}</source>
+            <translation type="unfinished">l’index a été modifié : {problem}</translation>
+        </message>
+        <message>
+            <source>not comparable: {reason}</source>
+            <translation type="unfinished">non comparable : {reason}</translation>
+        </message>
+        <message>
+            <source>comparable</source>
+            <translation type="unfinished">comparable</translation>
+        </message>
+        <message>
+            <source>{id} deleted: `acus session restore {id}` brings it back</source>
+            <translation type="unfinished">{id} supprimé : `acus session restore {id}` le récupère</translation>
+        </message>
+        <message>
+            <source>{id} is back</source>
+            <translation type="unfinished">{id} est de retour</translation>
+        </message>
+        <message>
+            <source>{id} was closed as it stands: listed as unfinished</source>
+            <translation type="unfinished">{id} a été clos tel quel : listé comme inachevé</translation>
+        </message>
+        <message>
+            <source>{id} has its end: there was nothing to recover, and nothing was changed</source>
+            <translation type="unfinished">{id} a sa fin : il n’y avait rien à récupérer, et rien n’a été modifié</translation>
+        </message>
+        <message>
+            <source>{id}  {student}  {exercise}  {duration:.0f} s: `acus session recover {id}` keeps it</source>
+            <translation type="unfinished">{id}  {student}  {exercise}  {duration:.0f} s : `acus session recover {id}` le conserve</translation>
+        </message>
+        <message>
+            <source>no attempt was cut off in {folder}</source>
+            <translation type="unfinished">aucun essai n’a été interrompu dans {folder}</translation>
+        </message>
+        <message>
+            <source>nothing to do</source>
+            <translation type="unfinished">rien à faire</translation>
+        </message>
+        <message>
+            <source>{left:#1 stays|# stay} there, not signed by this station: `acus session list --folder {from}` lists them</source>
+            <translation type="unfinished">{left:#1 y reste|# y restent}, non signés par ce poste : `acus session list --folder {from}` les liste</translation>
+        </message>
+        <message>
+            <source>{gathered:#1 attempt|# attempts} brought from {from} to {folder}</source>
+            <translation type="unfinished">{gathered:#1 essai apporté|# essais apportés|0 essai apporté} de {from} vers {folder}</translation>
         </message>
         <message>
             <source>--out {out}: only .csv can be written</source>
             <translation type="unfinished">--out {out} : seul .csv peut être écrit</translation>
         </message>
         <message>
+            <source>{rows:#1 row|# rows} written to {files}</source>
+            <translation type="unfinished">{rows:#1 ligne écrite|# lignes écrites|0 ligne écrite} dans {files}</translation>
+        </message>
+        <message>
             <source>--trajectory takes exactly one session id</source>
             <translation type="unfinished">--trajectory demande exactement un identifiant de séance</translation>
+        </message>
+        <message>
+            <source>student</source>
+            <translation type="unfinished">étudiant</translation>
+        </message>
+        <message>
+            <source>exercise</source>
+            <translation type="unfinished">exercice</translation>
+        </message>
+        <message>
+            <source>state</source>
+            <translation type="unfinished">état</translation>
+        </message>
+        <message>
+            <source>duration</source>
+            <translation type="unfinished">durée</translation>
+        </message>
+        <message>
+            <source>score</source>
+            <translation type="unfinished">note</translation>
+        </message>
+        <message>
+            <source>signature</source>
+            <translation type="unfinished">signature</translation>
+        </message>
+        <message>
+            <source>— altered</source>
+            <translation type="unfinished">— modifié</translation>
+        </message>
+        <message>
+            <source>{total:.0f} % passed</source>
+            <translation type="unfinished">{total:.0f} % réussi</translation>
+        </message>
+        <message>
+            <source>{total:.0f} %</source>
+            <translation type="unfinished">{total:.0f} %</translation>
+        </message>
+        <message>
+            <source>no student's attempt: {hands}</source>
+            <translation type="unfinished">aucun essai d’étudiant : {hands}</translation>
+        </message>
+        <message>
+            <source>± {radius:.1f} mm (95 %), median</source>
+            <translation type="unfinished">± {radius:.1f} mm (95 %), médiane</translation>
+        </message>
+        <message>
+            <source>started</source>
+            <translation type="unfinished">début</translation>
+        </message>
+        <message>
+            <source>reason</source>
+            <translation type="unfinished">raison</translation>
+        </message>
+        <message>
+            <source>{seconds:.1f} s</source>
+            <translation type="unfinished">{seconds:.1f} s</translation>
+        </message>
+        <message>
+            <source>scans</source>
+            <translation type="unfinished">contrôles</translation>
+        </message>
+        <message>
+            <source>file</source>
+            <translation type="unfinished">fichier</translation>
+        </message>
+        <message>
+            <source>hand</source>
+            <translation type="unfinished">main</translation>
+        </message>
+        <message>
+            <source>whose</source>
+            <translation type="unfinished">de qui</translation>
+        </message>
+        <message>
+            <source>calibration</source>
+            <translation type="unfinished">étalonnage</translation>
+        </message>
+        <message>
+            <source>tip known to</source>
+            <translation type="unfinished">pointe à</translation>
+        </message>
+        <message>
+            <source>published</source>
+            <translation type="unfinished">publié</translation>
+        </message>
+        <message>
+            <source>problem</source>
+            <translation type="unfinished">problème</translation>
+        </message>
+        <message>
+            <source>wrote {file}</source>
+            <translation type="unfinished">{file} écrit</translation>
         </message>
         <message>
             <source>study {name} takes no --{option}; leave it out</source>
             <translation type="unfinished">l’étude {name} n’accepte pas --{option} ; omettez-le</translation>
         </message>
         <message>
+            <source>tables and pictures are in {folder}</source>
+            <translation type="unfinished">les tableaux et les images sont dans {folder}</translation>
+        </message>
+        <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r} : utilisez {valid}</translation>
+        </message>
+        <message>
+            <source>{files}: from world (robot) to patient (LPS)</source>
+            <translation type="unfinished">{files} : du monde (robot) au patient (LPS)</translation>
         </message>
         <message>
             <source>--origin {origin!r}; valid names: {names}</source>
@@ -2200,6 +2580,10 @@
             <translation type="unfinished">fading : une évaluation est la même pour tous : laissez fading de côté, ou utilisez purpose: practice</translation>
         </message>
         <message>
+            <source>tolerances: {metric} is of a path that the student chooses: use plan {{own: true}}, or leave it out</source>
+            <translation type="unfinished">tolerances : {metric} porte sur une trajectoire que l’étudiant choisit : utilisez plan {{own: true}}, ou omettez-la</translation>
+        </message>
+        <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
             <translation type="unfinished">plan {{own: true}} d’un dossier CT demande target_mm: [x, y, z]</translation>
         </message>
@@ -2600,8 +2984,8 @@
             <translation type="unfinished">pydicom est chargé</translation>
         </message>
         <message>
-            <source>{absent} {verb} missing, without which its pixels cannot be told</source>
-            <translation type="unfinished">{absent} {verb} introuvable(s) ; sans cela, ses pixels ne peuvent pas être interprétés</translation>
+            <source>missing, without which its pixels cannot be told: {names}</source>
+            <translation type="unfinished">il manque ce sans quoi ses pixels ne peuvent être interprétés : {names}</translation>
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>
@@ -3248,10 +3632,6 @@
             <translation type="unfinished">{listing_path} est vide ; nommez un dossier contenant des fichiers DICOM</translation>
         </message>
         <message>
-            <source>no DICOM series in {listing_path}: {ignored} {files} ignored ({first_path_name}: {first_reason})</source>
-            <translation type="unfinished">aucune série DICOM dans {listing_path} : ignorés : {ignored} {files} ({first_path_name} : {first_reason})</translation>
-        </message>
-        <message>
             <source>no series {series_uid} in {listing_path}; it holds {valid}</source>
             <translation type="unfinished">pas de série {series_uid} dans {listing_path} ; présentes : {valid}</translation>
         </message>
@@ -3344,10 +3724,6 @@
             <translation type="unfinished">rééchantillonné à partir de coupes espacées de {narrowest_mm:.3g} à {widest_mm:.3g} mm, à {step:.3g} mm</translation>
         </message>
         <message>
-            <source>{empty} {gaps} of missing slices left empty</source>
-            <translation type="unfinished">coupes manquantes laissées vides : {empty} {gaps}</translation>
-        </message>
-        <message>
             <source>there is no volume to write to</source>
             <translation type="unfinished">il n’y a pas de volume où écrire</translation>
         </message>
@@ -3378,10 +3754,6 @@
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
             <translation type="unfinished">cosinus directeurs de longueur différente de un : pris tels qu’ils sont écrits</translation>
-        </message>
-        <message>
-            <source>{files} bytes behind the pixels, which are left out</source>
-            <translation type="unfinished">octets après les pixels, laissés de côté ({files})</translation>
         </message>
         <message>
             <source>slices lie {between:.1f} mm apart and are {thickness:.3g} mm thick: what is shown between them is interpolated, nothing there was scanned</source>
@@ -3756,24 +4128,8 @@
             <translation type="unfinished">{name} fait {here:.2f} ml sur la grille de ce CT, {there:.2f} ml dans le fichier</translation>
         </message>
         <message>
-            <source>{name}: {count} {contours} {reason} left out</source>
-            <translation type="unfinished">{name} : laissé de côté : {count} {contours} {reason}</translation>
-        </message>
-        <message>
             <source>its contours spread over {columns} × {rows} × {slices} voxels</source>
             <translation type="unfinished">ses contours s’étendent sur {columns} × {rows} × {slices} voxels</translation>
-        </message>
-        <message>
-            <source>contour that is</source>
-            <translation type="unfinished">contour</translation>
-        </message>
-        <message>
-            <source>contours that are</source>
-            <translation type="unfinished">contours</translation>
-        </message>
-        <message>
-            <source>{repeated} {times} in the file twice counted once</source>
-            <translation type="unfinished">doublons du fichier comptés une seule fois : {repeated} {times}</translation>
         </message>
         <message>
             <source>contours that cross one another were joined</source>
@@ -4448,14 +4804,6 @@
             <translation type="unfinished">la plaque {plate_name} n’a pas de place connue dans le repère spatial du robot, et aucune bille n’a été choisie : les touchers n’ont rien à quoi se comparer ; donnez `place`, ou choisissez les billes dans le CT</translation>
         </message>
         <message>
-            <source>touch {lacking} more {fiducials}</source>
-            <translation type="unfinished">encore à toucher : {lacking} {fiducials}</translation>
-        </message>
-        <message>
-            <source>pick {lacking} more {beads} in the CT, or none</source>
-            <translation type="unfinished">encore à choisir dans le CT : {lacking} {beads}, ou aucune</translation>
-        </message>
-        <message>
             <source>two fiducials have the same name: {names}</source>
             <translation type="unfinished">deux repères ont le même nom : {names}</translation>
         </message>
@@ -4548,10 +4896,6 @@
             <translation type="unfinished">point {i} ({name}) : {point} m : il faut des nombres finis dans ±{largest:g} m (des millimètres au lieu de mètres ?)</translation>
         </message>
         <message>
-            <source>{points_given} {name} {points}: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
-            <translation type="unfinished">{points_given} {points} ({name}) : un recalage en demande au moins {fewest}, et {fewest_to_check} pour en trouver un faux</translation>
-        </message>
-        <message>
             <source>the {name} points lie within {extent_mm:.2f} mm of each other: they are one point; touch fiducials that are far apart</source>
             <translation type="unfinished">les points ({name}) sont à moins de {extent_mm:.2f} mm les uns des autres : c’est un seul point ; touchez des repères éloignés les uns des autres</translation>
         </message>
@@ -4564,8 +4908,40 @@
             <translation type="unfinished">poids {array} : il faut {count} nombres positifs dans un rapport d’au plus 1e6</translation>
         </message>
         <message>
+            <source>screen and needle: not checked</source>
+            <translation type="unfinished">écran et aiguille : non vérifiés</translation>
+        </message>
+        <message>
+            <source>FRE says how well the points fit each other. It is not the accuracy at the target, and a small FRE does not promise one.</source>
+            <translation type="unfinished">La FRE dit à quel point les points s’accordent entre eux. Ce n’est pas l’exactitude à la cible, et une petite FRE n’en promet aucune.</translation>
+        </message>
+        <message>
+            <source>FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect at the target: it grows with the distance from the fiducials.</source>
+            <translation type="unfinished">La FLE est l’erreur du toucher d’un point, estimée d’après la FRE. La TRE est l’erreur à attendre à la cible : elle croît avec la distance aux repères.</translation>
+        </message>
+        <message>
+            <source>A shift that all touches share, a wrong tip length for instance, does not show in the FRE.</source>
+            <translation type="unfinished">Un décalage commun à tous les touchers, par exemple une longueur de pointe fausse, ne se voit pas dans la FRE.</translation>
+        </message>
+        <message>
             <source>screen and needle agree within ± {mm} mm (95 %)</source>
             <translation type="unfinished">l’écran et l’aiguille concordent à ± {mm} mm près (95 %)</translation>
+        </message>
+        <message>
+            <source>touched</source>
+            <translation type="unfinished">touchés</translation>
+        </message>
+        <message>
+            <source>picked</source>
+            <translation type="unfinished">désignés</translation>
+        </message>
+        <message>
+            <source>touches</source>
+            <translation type="unfinished">touchers</translation>
+        </message>
+        <message>
+            <source>picks in the CT</source>
+            <translation type="unfinished">points du scanner</translation>
         </message>
         <message>
             <source>TRE at the target: {expected_mm} mm RMS expected, at least 95 % within {within_95_mm} mm ({check_world_condition})</source>
@@ -4600,12 +4976,28 @@
             <translation type="unfinished">les longueurs entre les points ({verb}) sont fausses de {off:.1%} : trop {direction} (± {part_scale_sd:.1%})</translation>
         </message>
         <message>
+            <source>long</source>
+            <translation type="unfinished">longues</translation>
+        </message>
+        <message>
+            <source>short</source>
+            <translation type="unfinished">courtes</translation>
+        </message>
+        <message>
             <source>{finding}: the CT's spacing is wrong, or this is another plate</source>
             <translation type="unfinished">{finding} : l’espacement du CT est faux, ou c’est une autre plaque</translation>
         </message>
         <message>
             <source>{finding}: the cameras were calibrated with a board of another size than said. Measure its line of 100 mm and its squares, calibrate again; or this is another plate</source>
             <translation type="unfinished">{finding} : les caméras ont été étalonnées avec une mire d’une autre taille que celle indiquée. Mesurez son trait de 100 mm et ses carrés, puis refaites l’étalonnage ; ou bien c’est une autre plaque</translation>
+        </message>
+        <message>
+            <source>{mm:.1f}</source>
+            <translation type="unfinished">{mm:.1f}</translation>
+        </message>
+        <message>
+            <source>{mm:.2f}</source>
+            <translation type="unfinished">{mm:.2f}</translation>
         </message>
         <message>
             <source>one of them has no score</source>
@@ -5176,6 +5568,10 @@
             <translation type="unfinished">menu Robot, Mise en service, étape Prise d’origine</translation>
         </message>
         <message>
+            <source>Signs</source>
+            <translation type="unfinished">Signes</translation>
+        </message>
+        <message>
             <source>simulated robot: its signs are known</source>
             <translation type="unfinished">robot simulé : ses signes sont connus</translation>
         </message>
@@ -5212,12 +5608,64 @@
             <translation type="unfinished">le robot n’a encore rien signalé</translation>
         </message>
         <message>
+            <source>at most {force:g} N</source>
+            <translation type="unfinished">au plus {force:g} N</translation>
+        </message>
+        <message>
+            <source>{cameras} of 2 cameras</source>
+            <translation type="unfinished">{cameras} caméras sur 2</translation>
+        </message>
+        <message>
             <source>plug both cameras in; menu Cameras</source>
             <translation type="unfinished">branchez les deux caméras ; menu Caméras</translation>
         </message>
         <message>
             <source>both bright and sharp, {rates} a second</source>
             <translation type="unfinished">toutes deux claires et nettes, {rates} par seconde</translation>
+        </message>
+        <message>
+            <source>check the camera's cable; menu Cameras</source>
+            <translation type="unfinished">vérifiez le câble de la caméra ; menu Caméras</translation>
+        </message>
+        <message>
+            <source>wait a moment</source>
+            <translation type="unfinished">attendez un instant</translation>
+        </message>
+        <message>
+            <source>the picture is dark</source>
+            <translation type="unfinished">l’image est sombre</translation>
+        </message>
+        <message>
+            <source>lens cap, light, exposure</source>
+            <translation type="unfinished">cache de l’objectif, lumière, exposition</translation>
+        </message>
+        <message>
+            <source>{share:.0f} % of the picture is overexposed</source>
+            <translation type="unfinished">{share:.0f} % de l’image est surexposée</translation>
+        </message>
+        <message>
+            <source>less light, or a shorter exposure</source>
+            <translation type="unfinished">moins de lumière, ou une exposition plus courte</translation>
+        </message>
+        <message>
+            <source>{rate:.0f} pictures a second instead of {wanted:.0f}</source>
+            <translation type="unfinished">{rate:.0f} images par seconde au lieu de {wanted:.0f}</translation>
+        </message>
+        <message>
+            <source>own USB port for each camera; lock the exposure</source>
+            <translation type="unfinished">un port USB par caméra ; verrouillez l’exposition</translation>
+        </message>
+        <message>
+            <source>the marker's edge is {width:.1f} px wide</source>
+            <translation type="unfinished">le bord du marqueur fait {width:.1f} px de large</translation>
+        </message>
+        <message>
+            <source>focus the lens on the needle and lock it</source>
+            <translation type="unfinished">faites la mise au point sur l’aiguille et verrouillez-la</translation>
+        </message>
+        <message>
+            <source>Marker</source>
+            <translation type="unfinished">Marqueur</translation>
         </message>
         <message>
             <source>found in both pictures</source>
@@ -5228,6 +5676,10 @@
             <translation type="unfinished">pas encore d’images</translation>
         </message>
         <message>
+            <source>pictures first</source>
+            <translation type="unfinished">d’abord les images</translation>
+        </message>
+        <message>
             <source>only one camera</source>
             <translation type="unfinished">une seule caméra</translation>
         </message>
@@ -5236,12 +5688,20 @@
             <translation type="unfinished">avancez l’aiguille jusqu’à ce que les deux caméras voient la bande rouge ; cherchez d’autres objets rouges</translation>
         </message>
         <message>
+            <source>Cameras agree</source>
+            <translation type="unfinished">Accord des caméras</translation>
+        </message>
+        <message>
             <source>no point yet</source>
             <translation type="unfinished">pas encore de point</translation>
         </message>
         <message>
             <source>the marker must be seen by both cameras</source>
             <translation type="unfinished">le marqueur doit être vu par les deux caméras</translation>
+        </message>
+        <message>
+            <source>residual {residual:.2f} px</source>
+            <translation type="unfinished">résidu {residual:.2f} px</translation>
         </message>
         <message>
             <source>a camera was moved, or robot and cameras differ: `acus calibrate world`</source>
@@ -5386,10 +5846,6 @@
         <message>
             <source>effect {effect} is computed by its model {model} from here on</source>
             <translation type="unfinished">l’effet {effect} est calculé par son modèle {model} à partir d’ici</translation>
-        </message>
-        <message>
-            <source>{lie} in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
-            <translation type="unfinished">{lie} dans {folder}, où les versions antérieures rangeaient les essais : `acus session gather` amène les vôtres ici, `acus session list --folder {folder}` les liste tous</translation>
         </message>
         <message>
             <source>cannot bring attempts here: {place}: {error_strerror}</source>
@@ -7020,10 +7476,6 @@
             <translation type="unfinished">{listed} : le nom ne dit pas quelle caméra ; nommez les images p. ex. left01.png et right01.png, ou camera0_1.png et camera1_1.png</translation>
         </message>
         <message>
-            <source>the names of the pictures speak of {cameras} camera(s); two are needed, e.g. left01.png and right01.png</source>
-            <translation type="unfinished">caméras désignées par les noms des images : {cameras} ; il en faut deux, p. ex. left01.png et right01.png</translation>
-        </message>
-        <message>
             <source>{listed}: no picture of the other camera has that number; name those taken together alike (docs/calibration.md says how names are paired)</source>
             <translation type="unfinished">{listed} : aucune image de l’autre caméra n’a ce numéro ; nommez de la même façon celles prises ensemble (docs/calibration.md dit comment les noms sont appariés)</translation>
         </message>
@@ -8357,13 +8809,12 @@ Non : le conserver sous un autre nom.</translation>
             <source>five scripted skills are trying it …</source>
             <translation type="unfinished">cinq scripts d’habileté différente l’essaient …</translation>
         </message>
-        <message>
-            <source>1 attempt of each skill, without structures of risk</source>
-            <translation type="unfinished">1 essai par script, sans structures à risque</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts of each skill, without structures of risk</source>
-            <translation type="unfinished">{n} essais par script, sans structures à risque</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essai de chaque niveau, sans structures à risque</numerusform>
+                <numerusform>{n} essais de chaque niveau, sans structures à risque</numerusform>
+            </translation>
         </message>
         <message>
             <source>more are on their way …</source>
@@ -9748,8 +10199,28 @@ part</translation>
             <translation type="unfinished">Écran et aiguille</translation>
         </message>
         <message>
+            <source>checked</source>
+            <translation type="unfinished">vérifié</translation>
+        </message>
+        <message>
+            <source>checked with remarks</source>
+            <translation type="unfinished">vérifié, avec des remarques</translation>
+        </message>
+        <message>
             <source>check failed</source>
             <translation type="unfinished">vérification échouée</translation>
+        </message>
+        <message>
+            <source>check not finished</source>
+            <translation type="unfinished">vérification inachevée</translation>
+        </message>
+        <message>
+            <source>{verdict} today {time}</source>
+            <translation type="unfinished">{verdict} aujourd’hui {time}</translation>
+        </message>
+        <message>
+            <source>{verdict} {date:%Y-%m-%d %H:%M}</source>
+            <translation type="unfinished">{verdict} {date:%Y-%m-%d %H:%M}</translation>
         </message>
         <message>
             <source>not checked</source>
@@ -10011,13 +10482,12 @@ part</translation>
             <source>and {n} more</source>
             <translation type="unfinished">et {n} de plus</translation>
         </message>
-        <message>
-            <source>The program ended in the middle of an attempt:</source>
-            <translation type="unfinished">Le programme s’est arrêté au milieu d’un essai :</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>The program ended in the middle of {n} attempts:</source>
-            <translation type="unfinished">Le programme s’est arrêté au milieu de {n} essais :</translation>
+            <translation type="unfinished">
+                <numerusform>Le programme s’est arrêté au milieu de {n} essai :</numerusform>
+                <numerusform>Le programme s’est arrêté au milieu de {n} essais :</numerusform>
+            </translation>
         </message>
         <message>
             <source>Recover keeps what was recorded: it stays in the list as unfinished, without a score. Later changes nothing; the list of sessions offers it too.</source>
@@ -10087,13 +10557,12 @@ part</translation>
             <source>Earlier attempts lie in {there} ({n}): Sessions ▸ Bring earlier attempts here…</source>
             <translation type="unfinished">Des essais antérieurs sont dans {there} ({n}) : Séances ▸ Amener ici les essais antérieurs…</translation>
         </message>
-        <message>
-            <source>1 attempt has come; it is in the list (F7).</source>
-            <translation type="unfinished">1 essai est arrivé ; il est dans la liste (F7).</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts have come; they are in the list (F7).</source>
-            <translation type="unfinished">{n} essais sont arrivés ; ils sont dans la liste (F7).</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essai est arrivé ; il est dans la liste (F7).</numerusform>
+                <numerusform>{n} essais sont arrivés ; ils sont dans la liste (F7).</numerusform>
+            </translation>
         </message>
         <message>
             <source>vessel</source>
@@ -10123,9 +10592,12 @@ part</translation>
             <source>{met}, at {when}</source>
             <translation type="unfinished">{met}, à {when}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>met {n} times here</source>
-            <translation type="unfinished">rencontré {n} fois ici</translation>
+            <translation type="unfinished">
+                <numerusform>rencontré {n} fois ici</numerusform>
+                <numerusform>rencontré {n} fois ici</numerusform>
+            </translation>
         </message>
         <message>
             <source>longest way in it: {mm:.1f} mm</source>
@@ -10377,33 +10849,30 @@ part</translation>
             <source>Say why: the student reads it in the list and in the debrief.</source>
             <translation type="unfinished">Dites pourquoi : l’étudiant le lit dans la liste et au débriefing.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts declared void</source>
-            <translation type="unfinished">{n} essais déclarés nuls</translation>
-        </message>
-        <message>
-            <source>1 attempt declared void</source>
-            <translation type="unfinished">1 essai déclaré nul</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essai déclaré nul</numerusform>
+                <numerusform>{n} essais déclarés nuls</numerusform>
+            </translation>
         </message>
         <message>
             <source>Only the instructor does that: Sessions ▸ Sign in.</source>
             <translation type="unfinished">Seul le formateur peut le faire : Séances ▸ Se connecter.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts admitted</source>
-            <translation type="unfinished">{n} essais admis</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essai admis</numerusform>
+                <numerusform>{n} essais admis</numerusform>
+            </translation>
         </message>
-        <message>
-            <source>1 attempt admitted</source>
-            <translation type="unfinished">1 essai admis</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{done}: {n} attempts</source>
-            <translation type="unfinished">{done} : {n} essais</translation>
-        </message>
-        <message>
-            <source>{done}: 1 attempt</source>
-            <translation type="unfinished">{done} : 1 essai</translation>
+            <translation type="unfinished">
+                <numerusform>{done} : {n} essai</numerusform>
+                <numerusform>{done} : {n} essais</numerusform>
+            </translation>
         </message>
         <message>
             <source>Place in the attempt</source>
@@ -10652,12 +11121,20 @@ Lettres : directions du patient
             <translation type="unfinished">assistance {dial}</translation>
         </message>
         <message>
+            <source>bands: {bands}</source>
+            <translation type="unfinished">plages : {bands}</translation>
+        </message>
+        <message>
             <source>▲ model changed meanwhile: {models}</source>
             <translation type="unfinished">▲ modèle changé entre-temps : {models}</translation>
         </message>
         <message>
             <source>Hand and robot</source>
             <translation type="unfinished">Main et robot</translation>
+        </message>
+        <message>
+            <source>Bands</source>
+            <translation type="unfinished">Plages</translation>
         </message>
         <message>
             <source>Computer</source>
@@ -10670,6 +11147,18 @@ Lettres : directions du patient
         <message>
             <source>Software</source>
             <translation type="unfinished">Logiciel</translation>
+        </message>
+        <message>
+            <source>from scripts, not people</source>
+            <translation type="unfinished">d’après des scripts, pas des personnes</translation>
+        </message>
+        <message>
+            <source>from people's attempts</source>
+            <translation type="unfinished">d’après des essais de personnes</translation>
+        </message>
+        <message>
+            <source>as the exercise's author set them</source>
+            <translation type="unfinished">telles que l’auteur de l’exercice les a fixées</translation>
         </message>
         <message>
             <source>{start} as set, throughout</source>
@@ -10943,13 +11432,12 @@ Lettres : directions du patient
             <source>{label}: {value} cost {points}; {expert} or less costs none.</source>
             <translation type="unfinished">{label} : {value} a coûté {points} ; jusqu’à {expert}, rien.</translation>
         </message>
-        <message>
-            <source>1 point</source>
-            <translation type="unfinished">1 point</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} points</source>
-            <translation type="unfinished">{n} points</translation>
+            <translation type="unfinished">
+                <numerusform>{n} point</numerusform>
+                <numerusform>{n} points</numerusform>
+            </translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -10974,6 +11462,10 @@ Lettres : directions du patient
         <message>
             <source>The same again: it is not passed yet.</source>
             <translation type="unfinished">Le même de nouveau : il n’est pas encore réussi.</translation>
+        </message>
+        <message>
+            <source>The same once more: two passes in a row lead on.</source>
+            <translation type="unfinished">Encore une fois le même : deux réussites de suite mènent plus loin.</translation>
         </message>
         <message>
             <source> {n} attempts in a row did not pass; this one is of level {level}.</source>
@@ -11059,9 +11551,12 @@ Lettres : directions du patient
             <source>expert {expert:g}, good {good:g}, pass {passing:g} {unit}</source>
             <translation type="unfinished">expert {expert:g}, bon {good:g}, réussi {passing:g} {unit}</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} days left</source>
-            <translation type="unfinished">jours restants : {n}</translation>
+            <translation type="unfinished">
+                <numerusform>{n} jour restant</numerusform>
+                <numerusform>{n} jours restants</numerusform>
+            </translation>
         </message>
         <message>
             <source>void: {why}</source>
@@ -11079,9 +11574,12 @@ Lettres : directions du patient
             <source>cut off: Recover closes it as it is</source>
             <translation type="unfinished">interrompu : Récupérer le clôt tel quel</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>deleted; can be brought back for {n} days</source>
-            <translation type="unfinished">supprimé ; peut être rétabli (jours restants : {n})</translation>
+            <translation type="unfinished">
+                <numerusform>supprimé ; peut être récupéré pendant {n} jour</numerusform>
+                <numerusform>supprimé ; peut être récupéré pendant {n} jours</numerusform>
+            </translation>
         </message>
         <message>
             <source>deleted; can be brought back until the trash is emptied</source>
@@ -11100,8 +11598,32 @@ Lettres : directions du patient
             <translation type="unfinished">Signature</translation>
         </message>
         <message>
+            <source>this computer was too busy: the simulated cameras' pictures came too late; close other programs, then try again</source>
+            <translation type="unfinished">cet ordinateur était trop occupé : les images des caméras simulées sont arrivées trop tard ; fermez d’autres programmes, puis réessayez</translation>
+        </message>
+        <message>
+            <source>pictures and report are in {folder}</source>
+            <translation type="unfinished">les images et le compte rendu sont dans {folder}</translation>
+        </message>
+        <message>
+            <source>  void: {reason}</source>
+            <translation type="unfinished">  nul : {reason}</translation>
+        </message>
+        <message>
+            <source>{total:.0f} of 100</source>
+            <translation type="unfinished">{total:.0f} sur 100</translation>
+        </message>
+        <message>
             <source>void</source>
             <translation type="unfinished">nul</translation>
+        </message>
+        <message>
+            <source>not passed</source>
+            <translation type="unfinished">non réussi</translation>
+        </message>
+        <message>
+            <source>session: {record} (`acus session show`, `replay`: by this path)</source>
+            <translation type="unfinished">session : {record} (`acus session show`, `replay` : par ce chemin)</translation>
         </message>
         <message>
             <source>held</source>
@@ -11328,6 +11850,22 @@ Lettres : directions du patient
             <translation type="unfinished">{mark:g} points sur 100 suffisent pour réussir.</translation>
         </message>
         <message>
+            <source>With the mouse</source>
+            <translation type="unfinished">Avec la souris</translation>
+        </message>
+        <message>
+            <source>With the tablet</source>
+            <translation type="unfinished">Avec la tablette</translation>
+        </message>
+        <message>
+            <source>With the gamepad</source>
+            <translation type="unfinished">Avec la manette</translation>
+        </message>
+        <message>
+            <source>{hand}: {limits}</source>
+            <translation type="unfinished">{hand} : {limits}</translation>
+        </message>
+        <message>
             <source>{title}: best from {best}, passes from {passes}</source>
             <translation type="unfinished">{title} : parfait à partir de {best}, réussi à partir de {passes}</translation>
         </message>
@@ -11411,25 +11949,19 @@ Lettres : directions du patient
             <source>Any number of attempts.</source>
             <translation type="unfinished">Autant d’essais que l’on veut.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts are allowed.</source>
-            <translation type="unfinished">{n} essais sont permis.</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essai est autorisé.</numerusform>
+                <numerusform>{n} essais sont autorisés.</numerusform>
+            </translation>
         </message>
-        <message>
-            <source>1 attempt is allowed.</source>
-            <translation type="unfinished">1 essai est permis.</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{left} of {n} attempts are left.</source>
-            <translation type="unfinished">Essais restants : {left} sur {n}.</translation>
-        </message>
-        <message>
-            <source>The one attempt is left.</source>
-            <translation type="unfinished">Il reste l’unique essai.</translation>
-        </message>
-        <message>
-            <source>The one attempt is used.</source>
-            <translation type="unfinished">L’unique essai est utilisé.</translation>
+            <translation type="unfinished">
+                <numerusform>Il reste {left} essai sur {n}.</numerusform>
+                <numerusform>Il reste {left} essais sur {n}.</numerusform>
+            </translation>
         </message>
         <message>
             <source>Course: {title}.</source>
@@ -12881,7 +13413,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Learn</source>
-            <translation type="unfinished">Apprendre</translation>
+            <translation type="unfinished">Capter</translation>
         </message>
         <message>
             <source>Learn the marker's colour: press, then click on the marker in a picture</source>
@@ -13756,8 +14288,84 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">les deux mots de passe diffèrent : saisissez-les à nouveau</translation>
         </message>
         <message>
+            <source>no students yet: `acus people add` or `acus people roster`</source>
+            <translation type="unfinished">pas encore d’étudiants : `acus people add` ou `acus people roster`</translation>
+        </message>
+        <message>
+            <source>{pseudonym} was added; PIN {pin}</source>
+            <translation type="unfinished">{pseudonym} a été ajouté ; code PIN {pin}</translation>
+        </message>
+        <message>
+            <source>nothing was taken</source>
+            <translation type="unfinished">rien n’a été pris</translation>
+        </message>
+        <message>
+            <source>{added:#1 student|# students} added, {updated:#} updated</source>
+            <translation type="unfinished">{added:#1 étudiant ajouté|# étudiants ajoutés|0 étudiant ajouté}, {updated:#} mis à jour</translation>
+        </message>
+        <message>
+            <source>{pseudonym} has a new PIN</source>
+            <translation type="unfinished">{pseudonym} a un nouveau code PIN</translation>
+        </message>
+        <message>
+            <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
+            <translation type="unfinished">{pseudonym} a été effacé ; enregistrements supprimés : {records}, conservés sans propriétaire : {anonymous}</translation>
+        </message>
+        <message>
             <source>Recovery key</source>
             <translation type="unfinished">Clé de récupération</translation>
+        </message>
+        <message>
+            <source>the password was changed</source>
+            <translation type="unfinished">le mot de passe a été changé</translation>
+        </message>
+        <message>
+            <source>Password now</source>
+            <translation type="unfinished">Mot de passe actuel</translation>
+        </message>
+        <message>
+            <source>the recovery key that was printed before is worth nothing any more</source>
+            <translation type="unfinished">la clé de récupération imprimée auparavant ne vaut plus rien</translation>
+        </message>
+        <message>
+            <source>recovery key: {key}</source>
+            <translation type="unfinished">clé de récupération : {key}</translation>
+        </message>
+        <message>
+            <source>Print it and lock it away: it sets a new password, and opens the station's key in a backup. It is kept nowhere.</source>
+            <translation type="unfinished">Imprimez-la et mettez-la sous clé : elle définit un nouveau mot de passe et ouvre la clé du poste dans une sauvegarde. Elle n’est conservée nulle part.</translation>
+        </message>
+        <message>
+            <source>{id:24} {title}: {items:#1 exercise|# exercises}</source>
+            <translation type="unfinished">{id:24} {title} : {items:#1 exercice|# exercices|0 exercice}</translation>
+        </message>
+        <message>
+            <source>no courses in {folder}</source>
+            <translation type="unfinished">aucun cours dans {folder}</translation>
+        </message>
+        <message>
+            <source>{title} ({groups})</source>
+            <translation type="unfinished">{title} ({groups})</translation>
+        </message>
+        <message>
+            <source>, from {date}</source>
+            <translation type="unfinished">, à partir du {date}</translation>
+        </message>
+        <message>
+            <source>, until {date}</source>
+            <translation type="unfinished">, jusqu’au {date}</translation>
+        </message>
+        <message>
+            <source>  {exercise} (version {version}): {purpose}</source>
+            <translation type="unfinished">  {exercise} (version {version}) : {purpose}</translation>
+        </message>
+        <message>
+            <source>{title} was not saved: correct these, or import the exercises first</source>
+            <translation type="unfinished">{title} n’a pas été enregistré : corrigez ceci, ou importez d’abord les exercices</translation>
+        </message>
+        <message>
+            <source>{title} saved: {path}</source>
+            <translation type="unfinished">{title} enregistré : {path}</translation>
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -13815,13 +14423,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>Nothing was imported. Correct these rows and import the roster again:</source>
             <translation type="unfinished">Rien n’a été importé. Corrigez ces lignes et importez à nouveau la liste :</translation>
         </message>
-        <message>
-            <source>1 student added, {m} updated</source>
-            <translation type="unfinished">Étudiants ajoutés : 1, mis à jour : {m}</translation>
-        </message>
-        <message>
+        <message numerus="yes">
             <source>{n} students added, {m} updated</source>
-            <translation type="unfinished">Étudiants ajoutés : {n}, mis à jour : {m}</translation>
+            <translation type="unfinished">
+                <numerusform>{n} étudiant ajouté, {m} mis à jour</numerusform>
+                <numerusform>{n} étudiants ajoutés, {m} mis à jour</numerusform>
+            </translation>
         </message>
         <message>
             <source>Hand these out; they are kept nowhere.</source>
@@ -13867,13 +14474,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>{title} cannot be begun: {why}.</source>
             <translation type="unfinished">Impossible de commencer {title} : {why}.</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>Release {n} results of {title}?</source>
-            <translation type="unfinished">Publier {n} résultats de {title} ?</translation>
-        </message>
-        <message>
-            <source>Release 1 result of {title}?</source>
-            <translation type="unfinished">Publier 1 résultat de {title} ?</translation>
+            <translation type="unfinished">
+                <numerusform>Publier {n} résultat de {title} ?</numerusform>
+                <numerusform>Publier {n} résultats de {title} ?</numerusform>
+            </translation>
         </message>
         <message>
             <source>Release results</source>
@@ -13887,13 +14493,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>Release</source>
             <translation type="unfinished">Publier</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results released</source>
-            <translation type="unfinished">{n} résultats publiés</translation>
-        </message>
-        <message>
-            <source>1 result released</source>
-            <translation type="unfinished">1 résultat publié</translation>
+            <translation type="unfinished">
+                <numerusform>{n} résultat publié</numerusform>
+                <numerusform>{n} résultats publiés</numerusform>
+            </translation>
         </message>
         <message>
             <source>Choose a student on the board first: click on the row.</source>
@@ -13959,13 +14564,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>{n} d ago</source>
             <translation type="unfinished">il y a {n} j</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} attempts count</source>
-            <translation type="unfinished">{n} essais comptent</translation>
-        </message>
-        <message>
-            <source>1 attempt counts</source>
-            <translation type="unfinished">1 essai compte</translation>
+            <translation type="unfinished">
+                <numerusform>{n} essai compte</numerusform>
+                <numerusform>{n} essais comptent</numerusform>
+            </translation>
         </message>
         <message>
             <source>trend {trend:+.1f} points a time</source>
@@ -14123,9 +14727,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>, in order</source>
             <translation type="unfinished">, dans l’ordre</translation>
         </message>
-        <message>
+        <message numerus="yes">
             <source>{n} results wait for their release</source>
-            <translation type="unfinished">Résultats en attente de publication : {n}</translation>
+            <translation type="unfinished">
+                <numerusform>{n} résultat attend sa publication</numerusform>
+                <numerusform>{n} résultats attendent leur publication</numerusform>
+            </translation>
         </message>
         <message>
             <source>no exercises yet</source>
@@ -14280,10 +14887,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rapport d’un groupe</translation>
         </message>
         <message>
-            <source>{n} students, {m} exercises, {k} attempts that count: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">Étudiants : {n}, exercices : {m}, essais qui comptent : {k} (notés, comparables, faits par une personne, non déclarés nuls).</translation>
-        </message>
-        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Pas encore d’essai d’un étudiant connecté.</translation>
         </message>
@@ -14302,6 +14905,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>passed</source>
             <translation type="unfinished">réussi</translation>
+        </message>
+        <message>
+            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
+            <translation type="unfinished">{students}, {exercises}, {attempts} : notés, comparables, par une personne, non déclarés nuls.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -14481,7 +15088,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Map entries for this target</source>
-            <translation type="unfinished">Cartographier les points d’entrée vers la cible</translation>
+            <translation type="unfinished">Cartographier les points d’entrée</translation>
         </message>
         <message>
             <source>Clear</source>
@@ -15562,14 +16169,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Autres fichiers : {count}…</translation>
         </message>
         <message>
-            <source>{count} series, none of which can be used as it is</source>
-            <translation type="unfinished">Séries : {count}, aucune utilisable telle quelle</translation>
-        </message>
-        <message>
-            <source>{count} series, {usable} of which can be used</source>
-            <translation type="unfinished">Séries : {count}, dont utilisables : {usable}</translation>
-        </message>
-        <message>
             <source>Import CT into the library</source>
             <translation type="unfinished">Importer un CT dans la bibliothèque</translation>
         </message>
@@ -15756,6 +16355,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>The libraries cannot be listed: {error}</source>
             <translation type="unfinished">Impossible de lister les bibliothèques : {error}</translation>
+        </message>
+        <message>
+            <source>This language was translated, and not reviewed by native radiologists.</source>
+            <translation type="unfinished">Cette langue a été traduite, mais n’a pas été relue par des radiologues francophones.</translation>
         </message>
         <message>
             <source>Acus is under the Apache License 2.0 (LICENSE, NOTICE).</source>
@@ -16018,12 +16621,52 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Pas maintenant</translation>
         </message>
         <message>
+            <source>mastered by {n}</source>
+            <translation type="unfinished">maîtrisé par {n}</translation>
+        </message>
+        <message>
+            <source>mastered</source>
+            <translation type="unfinished">maîtrisé</translation>
+        </message>
+        <message>
+            <source>not begun</source>
+            <translation type="unfinished">pas commencé</translation>
+        </message>
+        <message>
             <source>done {n}</source>
             <translation type="unfinished">faits : {n}</translation>
         </message>
         <message>
+            <source>best {points} of 100</source>
+            <translation type="unfinished">meilleur {points} sur 100</translation>
+        </message>
+        <message>
+            <source>mastered: passed twice in a row</source>
+            <translation type="unfinished">maîtrisé : réussi deux fois de suite</translation>
+        </message>
+        <message>
+            <source>passed once: one more pass in a row masters it</source>
+            <translation type="unfinished">réussi une fois : encore une réussite de suite et il est maîtrisé</translation>
+        </message>
+        <message>
             <source>best {points}</source>
             <translation type="unfinished">meilleur {points}</translation>
+        </message>
+        <message>
+            <source>No. {n} of the course</source>
+            <translation type="unfinished">n° {n} du cours</translation>
+        </message>
+        <message>
+            <source>Level {n}</source>
+            <translation type="unfinished">Niveau {n}</translation>
+        </message>
+        <message>
+            <source>Continue</source>
+            <translation type="unfinished">Continuer</translation>
+        </message>
+        <message>
+            <source>No exercise is open to you now.</source>
+            <translation type="unfinished">Aucun exercice ne vous est ouvert pour l’instant.</translation>
         </message>
         <message>
             <source>No exercise holds these words: clear the search to see all.</source>
@@ -16042,6 +16685,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Première fois ici ?</translation>
         </message>
         <message>
+            <source>a name of your choice</source>
+            <translation type="unfinished">un nom de votre choix</translation>
+        </message>
+        <message>
             <source>Your own CT</source>
             <translation type="unfinished">Votre propre CT</translation>
         </message>
@@ -16058,8 +16705,24 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">S’exercer sous le nom</translation>
         </message>
         <message>
+            <source>Rings: everybody's best here.</source>
+            <translation type="unfinished">Anneaux : les meilleurs de tous ici.</translation>
+        </message>
+        <message>
             <source>Sign in as a student to see what you have done.</source>
             <translation type="unfinished">Connectez-vous comme étudiant pour voir ce que vous avez fait.</translation>
+        </message>
+        <message>
+            <source>Rings: best points without a name.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Anneaux : meilleurs points sans nom.
+✔ : réussi deux fois de suite.</translation>
+        </message>
+        <message>
+            <source>Rings: best points of {name}.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Anneaux : meilleurs points de {name}.
+✔ : réussi deux fois de suite.</translation>
         </message>
         <message>
             <source>Next (Enter)</source>
@@ -16076,6 +16739,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>The patient</source>
             <translation type="unfinished">Le patient</translation>
+        </message>
+        <message>
+            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
+            <translation type="unfinished">Chaque exercice a son patient : un CT et, le plus souvent, une trajectoire planifiée du point d’entrée sur la peau à la cible. Entrée commence : d’abord les consignes, puis l’essai. Pour chaque compétence, la difficulté augmente de gauche à droite ; un anneau montre où vous en êtes.</translation>
         </message>
         <message>
             <source>The slices</source>
@@ -17302,6 +17969,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Force maximale, estimée</translation>
         </message>
         <message>
+            <source>Planned path</source>
+            <translation type="unfinished">Trajectoire prévue</translation>
+        </message>
+        <message>
             <source>Pleural angle</source>
             <translation type="unfinished">Angle à la plèvre</translation>
         </message>
@@ -17344,6 +18015,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Relaxation of dimpled tissue</source>
             <translation type="unfinished">Relâchement du tissu enfoncé</translation>
+        </message>
+        <message>
+            <source>Room about the planned path</source>
+            <translation type="unfinished">Espace autour de la trajectoire prévue</translation>
         </message>
         <message>
             <source>Side stiffness of layered tissue about the fulcrum</source>
@@ -17442,8 +18117,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">La cible cède devant l’aiguille</translation>
         </message>
         <message>
-            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel and that the robot can follow, place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
-            <translation type="unfinished">La cible est la lésion du foie. Trouvez un point d’entrée d’où une trajectoire droite ne rencontre ni côte, ni poumon, ni vaisseau, et que le robot peut suivre ; placez-le (E, ou la carte des points d’entrée dans le panneau Plan), puis introduisez l’aiguille le long de votre propre trajectoire. Une côte arrête l’aiguille ; en rencontrer une, ou le poumon, l’intestin ou un gros vaisseau, fait échouer. Le patient retient sa respiration.</translation>
+            <source>The target is the lesion in the liver. Find an entry from which a straight path meets neither rib nor lung nor vessel, stays well away from them, is short and goes straight in, and that the robot can follow; place it (E, or the map of entries in the panel Plan), then insert the needle along your own path. The path that you choose is half of the score. A rib stops the needle; meeting one, or lung, gut or a large vessel, fails. The patient holds the breath.</source>
+            <translation type="unfinished">La cible est la lésion du foie. Trouvez un point d’entrée d’où une trajectoire droite ne rencontre ni côte, ni poumon, ni vaisseau, en reste bien à l’écart, est courte et entre droit, et que le robot peut suivre ; placez-le (E, ou la carte des points d’entrée dans le panneau Plan), puis introduisez l’aiguille le long de votre propre trajectoire. La trajectoire que vous choisissez compte pour la moitié des points. Une côte arrête l’aiguille ; en rencontrer une, ou le poumon, l’intestin ou un gros vaisseau, fait échouer. Le patient retient sa respiration.</translation>
         </message>
         <message>
             <source>The tensegrity needle holder: workspace, closure, conditioning, stiffness, encoders</source>
@@ -17536,6 +18211,139 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>You hold the handle of a long tool that goes through a trocar. Move the handle to the left and the tip goes to the right, the further the deeper it is. Touch the numbered targets one after the other: bring the tip onto the target that is marked, and hold it there until the next one is. Go straight to each; press Enter after the last.</source>
             <translation type="unfinished">Vous tenez la poignée d’un long instrument qui passe par un trocart. Déplacez la poignée vers la gauche et la pointe va vers la droite, d’autant plus loin qu’elle est profonde. Touchez les cibles numérotées l’une après l’autre : amenez la pointe sur la cible marquée et maintenez-la là jusqu’à ce que la suivante le soit. Allez tout droit à chacune ; appuyez sur Entrée après la dernière.</translation>
+        </message>
+        <message numerus="yes">
+            <source>, {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>, {n} essai</numerusform>
+                <numerusform>, {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
+            <translation type="unfinished">
+                <numerusform>aucune série DICOM dans {listing_path} : {n} fichier ignoré ({first_path_name} : {first_reason})</numerusform>
+                <numerusform>aucune série DICOM dans {listing_path} : {n} fichiers ignorés ({first_path_name} : {first_reason})</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>pick {n} more beads in the CT, or none</source>
+            <translation type="unfinished">
+                <numerusform>désignez encore {n} bille dans le scanner, ou aucune</numerusform>
+                <numerusform>désignez encore {n} billes dans le scanner, ou aucune</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>the names of the pictures speak of {n} cameras; two are needed, e.g. left01.png and right01.png</source>
+            <translation type="unfinished">
+                <numerusform>les noms des images parlent de {n} caméra ; il en faut deux, p. ex. left01.png et right01.png</numerusform>
+                <numerusform>les noms des images parlent de {n} caméras ; il en faut deux, p. ex. left01.png et right01.png</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>touch {n} more fiducials</source>
+            <translation type="unfinished">
+                <numerusform>touchez encore {n} repère</numerusform>
+                <numerusform>touchez encore {n} repères</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{name}: {n} contours {reason} left out</source>
+            <translation type="unfinished">
+                <numerusform>{name} : {n} contour {reason} écarté</numerusform>
+                <numerusform>{name} : {n} contours {reason} écartés</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai</numerusform>
+                <numerusform>{n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai se trouve dans {folder}, où d’anciennes versions conservaient les essais : `acus session gather` apporte les vôtres ici, `acus session list --folder {folder}` les liste tous</numerusform>
+                <numerusform>{n} essais se trouvent dans {folder}, où d’anciennes versions conservaient les essais : `acus session gather` apporte les vôtres ici, `acus session list --folder {folder}` les liste tous</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai d’étudiant est réservé au formateur : {variable} contient le mot de passe</numerusform>
+                <numerusform>{n} essais d’étudiants sont réservés au formateur : {variable} contient le mot de passe</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts that count</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai qui compte</numerusform>
+                <numerusform>{n} essais qui comptent</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} contours that are in the file twice counted once</source>
+            <translation type="unfinished">
+                <numerusform>{n} contour présent deux fois dans le fichier, compté une fois</numerusform>
+                <numerusform>{n} contours présents deux fois dans le fichier, comptés une fois</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} exercises</source>
+            <translation type="unfinished">
+                <numerusform>{n} exercice</numerusform>
+                <numerusform>{n} exercices</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files hold bytes behind the pixels, which are left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} fichier contient, derrière les pixels, des octets qui sont écartés</numerusform>
+                <numerusform>{n} fichiers contiennent, derrière les pixels, des octets qui sont écartés</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} gaps of missing slices left empty</source>
+            <translation type="unfinished">
+                <numerusform>{n} lacune de coupes manquantes laissée vide</numerusform>
+                <numerusform>{n} lacunes de coupes manquantes laissées vides</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} regions {reason} left out: the file does not say what it is</source>
+            <translation type="unfinished">
+                <numerusform>{n} région {reason} écartée : le fichier ne dit pas ce qu’elle est</numerusform>
+                <numerusform>{n} régions {reason} écartées : le fichier ne dit pas ce qu’elles sont</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, none of which can be used as it is</source>
+            <translation type="unfinished">
+                <numerusform>{n} série, inutilisable telle quelle</numerusform>
+                <numerusform>{n} séries, dont aucune n’est utilisable telle quelle</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} series, {usable} of which can be used</source>
+            <translation type="unfinished">
+                <numerusform>{n} série, dont {usable} utilisable</numerusform>
+                <numerusform>{n} séries, dont {usable} utilisables</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} students</source>
+            <translation type="unfinished">
+                <numerusform>{n} étudiant</numerusform>
+                <numerusform>{n} étudiants</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} {name} points: a registration needs at least {fewest}, and {fewest_to_check} to find a wrong one</source>
+            <translation type="unfinished">
+                <numerusform>{n} point « {name} » : un recalage en demande au moins {fewest}, et {fewest_to_check} pour trouver celui qui est faux</numerusform>
+                <numerusform>{n} points « {name} » : un recalage en demande au moins {fewest}, et {fewest_to_check} pour trouver celui qui est faux</numerusform>
+            </translation>
         </message>
         <message>
             <source>Depth only: you begin aligned; only the depth counts, and nothing may be met that the exercise forbids.</source>
@@ -17718,52 +18526,334 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">--full et --quick demandent les deux : retirez l’un d’eux</translation>
         </message>
         <message>
-            <source>The same once more: two passes in a row lead on.</source>
-            <translation type="unfinished">Encore une fois le même : deux réussites de suite mènent plus loin.</translation>
+            <source>the output could not be written: {reason}; free some space there</source>
+            <translation type="unfinished">la sortie n’a pas pu être écrite : {reason} ; libérez de la place</translation>
         </message>
         <message>
-            <source>mastered by {n}</source>
-            <translation type="unfinished">maîtrisé par {n}</translation>
+            <source>a question was not answered; nothing was done</source>
+            <translation type="unfinished">une question est restée sans réponse ; rien n’a été fait</translation>
         </message>
         <message>
-            <source>mastered</source>
-            <translation type="unfinished">maîtrisé</translation>
+            <source>Invalid value: {reason}</source>
+            <translation type="unfinished">Valeur non valable : {reason}</translation>
         </message>
         <message>
-            <source>not begun</source>
-            <translation type="unfinished">pas commencé</translation>
+            <source>no daily check was made yet</source>
+            <translation type="unfinished">aucune vérification du jour n’a encore été faite</translation>
         </message>
         <message>
-            <source>best {points} of 100</source>
-            <translation type="unfinished">meilleur {points} sur 100</translation>
+            <source>Rest the tip in {name} and hold still; press Enter</source>
+            <translation type="unfinished">Posez la pointe dans {name} et ne bougez plus ; appuyez sur Entrée</translation>
         </message>
         <message>
-            <source>mastered: passed twice in a row</source>
-            <translation type="unfinished">maîtrisé : réussi deux fois de suite</translation>
+            <source>Instructor's password</source>
+            <translation type="unfinished">Mot de passe du formateur</translation>
         </message>
         <message>
-            <source>passed once: one more pass in a row masters it</source>
-            <translation type="unfinished">réussi une fois : encore une réussite de suite et il est maîtrisé</translation>
+            <source>compiling for the first time, up to a minute …</source>
+            <translation type="unfinished">première compilation, jusqu’à une minute…</translation>
         </message>
         <message>
-            <source>No. {n} of the course</source>
-            <translation type="unfinished">n° {n} du cours</translation>
+            <source>{exercise} on the simulated device {device}</source>
+            <translation type="unfinished">{exercise} sur l’appareil simulé {device}</translation>
         </message>
         <message>
-            <source>Level {n}</source>
-            <translation type="unfinished">Niveau {n}</translation>
+            <source>{exercise} on the real device {device}</source>
+            <translation type="unfinished">{exercise} sur l’appareil réel {device}</translation>
         </message>
         <message>
-            <source>Continue</source>
-            <translation type="unfinished">Continuer</translation>
+            <source>{energy:.1f} mJ</source>
+            <translation type="unfinished">{energy:.1f} mJ</translation>
         </message>
         <message>
-            <source>No exercise is open to you now.</source>
-            <translation type="unfinished">Aucun exercice ne vous est ouvert pour l’instant.</translation>
+            <source>energy</source>
+            <translation type="unfinished">énergie</translation>
         </message>
         <message>
-            <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
-            <translation type="unfinished">Chaque exercice a son patient : un CT et, le plus souvent, une trajectoire planifiée du point d’entrée sur la peau à la cible. Entrée commence : d’abord les consignes, puis l’essai. Pour chaque compétence, la difficulté augmente de gauche à droite ; un anneau montre où vous en êtes.</translation>
+            <source>bound</source>
+            <translation type="unfinished">limite</translation>
+        </message>
+        <message>
+            <source>cost</source>
+            <translation type="unfinished">coût</translation>
+        </message>
+        <message>
+            <source>model</source>
+            <translation type="unfinished">modèle</translation>
+        </message>
+        <message>
+            <source>why</source>
+            <translation type="unfinished">raison</translation>
+        </message>
+        <message>
+            <source>note</source>
+            <translation type="unfinished">note</translation>
+        </message>
+        <message>
+            <source>  no effects</source>
+            <translation type="unfinished">  aucun effet</translation>
+        </message>
+        <message>
+            <source>
+  touches {targets} targets, each for {dwell:g} s within {radius:g} mm; the hand moves the tool's handle</source>
+            <translation type="unfinished">
+  touche {targets} cibles, chacune pendant {dwell:g} s à {radius:g} mm près ; la main déplace la poignée de l’instrument</translation>
+        </message>
+        <message>
+            <source>    {target}  at ({place}) mm LPS, {depth:.0f} mm deep: 1 mm of hand moves the tip {scale:.2f} mm the other way</source>
+            <translation type="unfinished">    {target}  à ({place}) mm LPS, profondeur {depth:.0f} mm : 1 mm de la main déplace la pointe de {scale:.2f} mm en sens inverse</translation>
+        </message>
+        <message>
+            <source>
+  {metric} passes to {limit:g}: {reason}</source>
+            <translation type="unfinished">
+  {metric} réussit jusqu’à {limit:g} : {reason}</translation>
+        </message>
+        <message>
+            <source>
+  refused {kind}: {reason}</source>
+            <translation type="unfinished">
+  refusé {kind} : {reason}</translation>
+        </message>
+        <message>
+            <source>  the patient calls for</source>
+            <translation type="unfinished">  le patient demande</translation>
+        </message>
+        <message>
+            <source>      left out: {reason}</source>
+            <translation type="unfinished">      laissé de côté : {reason}</translation>
+        </message>
+        <message>
+            <source>      absent</source>
+            <translation type="unfinished">      absent</translation>
+        </message>
+        <message>
+            <source>      absent, {cost}</source>
+            <translation type="unfinished">      absent, {cost}</translation>
+        </message>
+        <message>
+            <source>  add it: `acus exercise suggest {name}`</source>
+            <translation type="unfinished">  à ajouter : `acus exercise suggest {name}`</translation>
+        </message>
+        <message>
+            <source>{time:.2f} ms for each picture of a camera, nothing of a tick</source>
+            <translation type="unfinished">{time:.2f} ms pour chaque image d’une caméra, rien d’un cycle</translation>
+        </message>
+        <message>
+            <source>{time:.0f} ns per tick, {share:.4f} % of 1 ms</source>
+            <translation type="unfinished">{time:.0f} ns par cycle, {share:.4f} % de 1 ms</translation>
+        </message>
+        <message>
+            <source>{items}, {next}</source>
+            <translation type="unfinished">{items}, {next}</translation>
+        </message>
+        <message>
+            <source>{items} and {last}</source>
+            <translation type="unfinished">{items} et {last}</translation>
+        </message>
+        <message>
+            <source>0.5</source>
+            <translation type="unfinished">0,5</translation>
+        </message>
+        <message>
+            <source>%Y-%m-%d %H:%M</source>
+            <translation type="unfinished">%d/%m/%Y %H:%M</translation>
+        </message>
+        <message>
+            <source>%Y-%m-%d</source>
+            <translation type="unfinished">%d/%m/%Y</translation>
+        </message>
+        <message>
+            <source>{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}{trial_states:? (tried with {trial_states} states in {trial_s} s)}}</source>
+            <translation type="unfinished">{refused:?✖|✔} {law} : {refused:?refusé : {refused}|{title}{trial_states:? (essayé avec {trial_states} états en {trial_s} s)}}</translation>
+        </message>
+        <message>
+            <source>none; `acus pacs add NAME` writes {file}</source>
+            <translation type="unfinished">aucun ; `acus pacs add NAME` écrit {file}</translation>
+        </message>
+        <message>
+            <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
+            <translation type="unfinished">{name} est configuré ; `acus pacs echo --pacs {name}` demande s’il répond</translation>
+        </message>
+        <message>
+            <source>{name} is forgotten</source>
+            <translation type="unfinished">{name} est oublié</translation>
+        </message>
+        <message>
+            <source>{name} answers in {time:.1f} ms</source>
+            <translation type="unfinished">{name} répond en {time:.1f} ms</translation>
+        </message>
+        <message>
+            <source>nothing matches</source>
+            <translation type="unfinished">rien ne correspond</translation>
+        </message>
+        <message>
+            <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
+            <translation type="unfinished">imprimez à 100 %, vérifiez la ligne de 100 mm, découpez, pliez, collez (docs/pen.md)</translation>
+        </message>
+        <message>
+            <source>tip measured</source>
+            <translation type="unfinished">pointe mesurée</translation>
+        </message>
+        <message>
+            <source>tip by the drawing: `acus pen calibrate`</source>
+            <translation type="unfinished">pointe selon le dessin : `acus pen calibrate`</translation>
+        </message>
+        <message>
+            <source>stand the tip in a dimple on the sheet and rock the pen to every side …</source>
+            <translation type="unfinished">posez la pointe dans un creux sur la feuille et balancez le stylo de tous les côtés…</translation>
+        </message>
+        <message>
+            <source>now lay the pen into a groove and roll it about itself by a quarter turn or more …</source>
+            <translation type="unfinished">posez maintenant le stylo dans une rainure et roulez-le sur lui-même d’un quart de tour ou plus…</translation>
+        </message>
+        <message>
+            <source>no files of your own yet; save them in these folders (make what is missing):</source>
+            <translation type="unfinished">pas encore de fichiers à vous ; enregistrez-les dans ces dossiers (créez ce qui manque) :</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts in {folder}, {deleted} deleted</source>
+            <translation type="unfinished">{attempts} essais dans {folder}, {deleted} supprimés</translation>
+        </message>
+        <message>
+            <source>index: {index:?{index}|in memory, the folder can only be read}</source>
+            <translation type="unfinished">index : {index:?{index}|en mémoire, le dossier est en lecture seule}</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts indexed, {gone} of the old index are gone</source>
+            <translation type="unfinished">{attempts} essais indexés, {gone} de l’ancien index ont disparu</translation>
+        </message>
+        <message>
+            <source>the station's key in it was sealed by an earlier build, and nothing opens it any more: change the password (`acus people instructor`), which prints a new recovery key, and make the backup again</source>
+            <translation type="unfinished">la clé du poste qu’elle contient a été scellée par une version antérieure, et plus rien ne l’ouvre : changez le mot de passe (`acus people instructor`), ce qui imprime une nouvelle clé de récupération, et refaites la sauvegarde</translation>
+        </message>
+        <message>
+            <source>without the station's key: set a password first (`acus people instructor`) if its records are to be verified on another computer</source>
+            <translation type="unfinished">sans la clé du poste : définissez d’abord un mot de passe (`acus people instructor`) si ses enregistrements doivent être vérifiés sur un autre ordinateur</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} written to {files}</source>
+            <translation type="unfinished">{records:#1 enregistrement écrit|# enregistrements écrits|0 enregistrement écrit} dans {files}</translation>
+        </message>
+        <message>
+            <source>not in it: {}</source>
+            <translation type="unfinished">n’y est pas : {}</translation>
+        </message>
+        <message>
+            <source>{records} records restored, {kept} were here already</source>
+            <translation type="unfinished">{records} enregistrements restaurés, {kept} étaient déjà ici</translation>
+        </message>
+        <message>
+            <source>✖ {} is another record here: the one here was kept</source>
+            <translation type="unfinished">✖ {} est ici un autre enregistrement : celui d’ici a été conservé</translation>
+        </message>
+        <message>
+            <source>{erased} records left out: their person was erased</source>
+            <translation type="unfinished">{erased} enregistrements écartés : leur personne a été effacée</translation>
+        </message>
+        <message>
+            <source>✖ not taken: {}</source>
+            <translation type="unfinished">✖ non pris : {}</translation>
+        </message>
+        <message>
+            <source>{deleted:#1 attempt|# attempts} deleted for good</source>
+            <translation type="unfinished">{deleted:#1 essai supprimé|# essais supprimés|0 essai supprimé} définitivement</translation>
+        </message>
+        <message>
+            <source>never warns</source>
+            <translation type="unfinished">n’avertit jamais</translation>
+        </message>
+        <message>
+            <source>the record was written while it was read</source>
+            <translation type="unfinished">l’enregistrement a été écrit pendant sa lecture</translation>
+        </message>
+        <message>
+            <source>the record is not the one that was signed</source>
+            <translation type="unfinished">l’enregistrement n’est pas celui qui a été signé</translation>
+        </message>
+        <message>
+            <source>the list shows another {key} than was signed</source>
+            <translation type="unfinished">la liste montre pour {key} autre chose que ce qui a été signé</translation>
+        </message>
+        <message>
+            <source>the {part} in it is not the one that was signed</source>
+            <translation type="unfinished">la partie {part} qu’il contient n’est pas celle qui a été signée</translation>
+        </message>
+        <message>
+            <source>no signature stands beside it</source>
+            <translation type="unfinished">aucune signature ne se trouve à côté</translation>
+        </message>
+        <message>
+            <source>its signature cannot be read: {reason}</source>
+            <translation type="unfinished">la signature ne peut pas être lue : {reason}</translation>
+        </message>
+        <message>
+            <source>its signature is damaged</source>
+            <translation type="unfinished">la signature est endommagée</translation>
+        </message>
+        <message>
+            <source>signed by another station ({station})</source>
+            <translation type="unfinished">signé par un autre poste ({station})</translation>
+        </message>
+        <message>
+            <source>the signature beside it is that of another attempt</source>
+            <translation type="unfinished">la signature qui se trouve à côté est celle d’un autre essai</translation>
+        </message>
+        <message>
+            <source>its signature is not this station's</source>
+            <translation type="unfinished">la signature n’est pas celle de ce poste</translation>
+        </message>
+        <message>
+            <source>{where} has no tolerance: give it one, with its weight</source>
+            <translation type="unfinished">{where} n’a pas de tolérance : donnez-en une, avec son poids</translation>
+        </message>
+        <message>
+            <source>{where} says where the needle has to end, which is the same for every hand: change its tolerance</source>
+            <translation type="unfinished">{where} dit où l’aiguille doit finir, ce qui est le même pour toute main : changez sa tolérance</translation>
+        </message>
+        <message>
+            <source>{where} runs against the bands of its tolerance</source>
+            <translation type="unfinished">{where} va à l’encontre des plages de sa tolérance</translation>
+        </message>
+        <message>
+            <source>nobody labelled what most of the planned path goes through</source>
+            <translation type="unfinished">personne n’a nommé ce que traverse la plus grande partie de la trajectoire prévue</translation>
+        </message>
+        <message>
+            <source>the entry does not lie on the skin</source>
+            <translation type="unfinished">le point d’entrée n’est pas sur la peau</translation>
+        </message>
+        <message>
+            <source>nothing that a needle should not meet is near the planned path</source>
+            <translation type="unfinished">près de la trajectoire prévue, il n’y a rien qu’une aiguille doive éviter</translation>
+        </message>
+        <message>
+            <source>the path was given, or no tissue field told what lies on it</source>
+            <translation type="unfinished">la trajectoire était donnée, ou aucun champ de tissus n’a dit ce qui s’y trouve</translation>
+        </message>
+        <message>
+            <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">La trajectoire traverse {length_mm:.1f} mm de {tissue}, à {depth_mm:.0f} mm de profondeur.</translation>
+        </message>
+        <message>
+            <source>The path is {length_mm:.0f} mm long; {most_mm:.0f} mm are allowed.</source>
+            <translation type="unfinished">La trajectoire mesure {length_mm:.0f} mm ; {most_mm:.0f} mm sont permis.</translation>
+        </message>
+        <message>
+            <source>The path lies {angle:.0f}° off straight in at the skin; {most:.0f}° are allowed.</source>
+            <translation type="unfinished">À la peau, la trajectoire s’écarte de {angle:.0f}° de la perpendiculaire ; {most:.0f}° sont permis.</translation>
+        </message>
+        <message>
+            <source>The path comes within {mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
+            <translation type="unfinished">À {depth_mm:.0f} mm de profondeur, la trajectoire passe à {mm:.1f} mm de : {tissue}.</translation>
+        </message>
+        <message>
+            <source>It meets the pleura at {angle:.0f}°.</source>
+            <translation type="unfinished">Elle rencontre la plèvre à {angle:.0f}°.</translation>
+        </message>
+        <message>
+            <source>It is {length_mm:.0f} mm long and goes in {angle:.0f}° off straight.</source>
+            <translation type="unfinished">Elle mesure {length_mm:.0f} mm et entre à {angle:.0f}° de la perpendiculaire.</translation>
         </message>
         <message>
             <source>Hand and tissue</source>
@@ -17784,26 +18874,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Pour la recherche</translation>
-        </message>
-        <message>
-            <source>a name of your choice</source>
-            <translation type="unfinished">un nom de votre choix</translation>
-        </message>
-        <message>
-            <source>Rings: best points without a name.
-✔: passed twice in a row.</source>
-            <translation type="unfinished">Anneaux : meilleurs points sans nom.
-✔ : réussi deux fois de suite.</translation>
-        </message>
-        <message>
-            <source>Rings: best points of {name}.
-✔: passed twice in a row.</source>
-            <translation type="unfinished">Anneaux : meilleurs points de {name}.
-✔ : réussi deux fois de suite.</translation>
-        </message>
-        <message>
-            <source>Rings: everybody's best here.</source>
-            <translation type="unfinished">Anneaux : les meilleurs de tous ici.</translation>
         </message>
     </context>
 </TS>

@@ -3,8 +3,10 @@
 import pytest
 from PySide6.QtWidgets import QApplication, QMenu
 from shiboken6 import isValid
+from views_exercise_attempts import review
 from window_rig import plan
 
+from app.views.debrief.feature import DebriefFeature
 from app.views.kit import language
 from app.views.shell.language import Rebuilding, fill_language_menu
 from app.views.shell.window import MainWindow
@@ -81,6 +83,24 @@ def test_another_language_keeps_patient_plan_and_exercise(patient, rebuilding, s
     rebuilding.change("en")
     assert "&File" in menus(rebuilding.window)
     assert rebuilding.window.editor.edit.draft == drawn
+
+
+def test_another_language_shows_the_debrief_that_was_shown(rebuilding, settle):
+    debrief = rebuilding.window.feature(DebriefFeature)
+    shown = review()
+    debrief._controller._read(lambda: shown)
+    assert settle(lambda: rebuilding.window.pages.currentWidget() is debrief.page)
+    rebuilding.change("de")
+    new = rebuilding.window
+    page = new.feature(DebriefFeature).page
+    assert new.pages.currentWidget() is page
+    assert settle(lambda: page.review is not None)
+    assert page.review.id == shown.id
+    assert new.pages.currentWidget() is page
+    new.feature(DebriefFeature).show_sessions()
+    rebuilding.change("en")
+    last = rebuilding.window
+    assert last.pages.currentWidget() is last.feature(DebriefFeature).sessions
 
 
 def test_in_an_attempt_the_language_stays_and_the_window_says_so(patient, rebuilding):

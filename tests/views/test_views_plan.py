@@ -13,6 +13,7 @@ from app.planning.draft import DraftPlan
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.views.kit import theme
+from app.views.kit.language import use_language
 from app.views.plan.editor import PlanEditor, PlanFiles
 from app.views.plan.feature import PlanFeature, PlanPanel
 from app.views.plan.verdict import verdict_words
@@ -186,6 +187,19 @@ def panel(editor):
     panel = PlanPanel(editor, viewing)
     yield panel
     panel.deleteLater()
+
+
+@pytest.mark.parametrize("code", ["de", "fr"])
+def test_the_panel_has_room_for_its_words_beside_the_pictures(editor, application, code):
+    use_language(application, code)
+    try:
+        panel = PlanPanel(editor, Viewing(default_window()))
+        editor.place(Tool.ENTRY, FRONT, True)
+        editor.place(Tool.TARGET, INSIDE, True)
+        assert panel.minimumSizeHint().width() <= 354  # of a window of 1366 pixels
+        panel.deleteLater()
+    finally:
+        use_language(application, "en")
 
 
 def test_the_panel_leads_from_nothing_to_a_plan(panel, editor):

@@ -39,6 +39,7 @@ from app.views.people.pages import standing_words
 from tools.translations import faults
 
 GERMAN = {
+    "0.5": "0,5",
     "the attempt was aborted: {trajectory_aborted}": "der Versuch wurde abgebrochen: "
     "{trajectory_aborted}",
     "{bone} touched at {depth}": "{bone} bei {depth} berührt",
@@ -63,9 +64,9 @@ class German(QTranslator):
 def german(qt):
     translator = German()
     QCoreApplication.installTranslator(translator)
-    text.use_decimal_point(",")
+    text.begin_language(english=False)
     yield
-    text.use_decimal_point(".")
+    text.begin_language(english=True)
     QCoreApplication.removeTranslator(translator)
     translator.deleteLater()
 

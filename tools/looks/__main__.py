@@ -33,7 +33,8 @@ SHOWN: Final = 12
 
 def take(folder: Path, wish: Wish) -> None:
     """Take the pictures of one language in this process, and write what was found of them."""
-    from app.views.kit.language import ENGLISH, choose, use_language
+    from app.core.language import ENGLISH
+    from app.views.kit.language import choose, use_language
     from app.views.shell.application import start
     from app.views.shell.settings import open_settings
     from tools.looks.pseudo import Longer

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
-from app.core.messages import sentence
-from app.core.words import counted
+from app.core.messages import counted, sentence
 from app.imaging.structures.contours import ONE_PLANE_MM, ContourPlane, gathered, stacked
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Colour, StructureKind
@@ -59,11 +58,11 @@ class ContourRegion:
     def notes(self) -> list[str]:
         """Say what was left out, a line for each reason."""
         return [
-            sentence(
-                "{name}: {count} {contours} {reason} left out",
+            counted(
+                "{name}: {n} contour {reason} left out",
+                "{name}: {n} contours {reason} left out",
+                count,
                 name=self.name,
-                count=count,
-                contours=counted(count, "contour", "contours"),
                 reason=reason,
             )
             for reason, count in self.left_out.items()
@@ -213,10 +212,11 @@ class Layers:
 def _remarks(planes: Sequence[ContourPlane]) -> list[str]:
     said: list[str] = []
     if repeated := sum(plane.repeated for plane in planes):
-        times = sentence("contour that is") if repeated == 1 else sentence("contours that are")
         said.append(
-            sentence(
-                "{repeated} {times} in the file twice counted once", repeated=repeated, times=times
+            counted(
+                "{n} contour that is in the file twice counted once",
+                "{n} contours that are in the file twice counted once",
+                repeated,
             )
         )
     if any(plane.crossed for plane in planes):

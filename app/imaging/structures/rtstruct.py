@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.messages import sentence
+from app.core.messages import counted, sentence
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
@@ -95,8 +95,14 @@ def _regions(dataset: Any, path: Path) -> tuple[list[ContourRegion], list[str]]:
         region.colour = region.colour or _colour(item)
         _take_contours(item, region)
     for what, count in strange.items():
-        lines = "region" if count == 1 else "regions"
-        notes.append(f"{count} {lines} {what} left out: the file does not say what it is")
+        notes.append(
+            counted(
+                "{n} region {reason} left out: the file does not say what it is",
+                "{n} regions {reason} left out: the file does not say what it is",
+                count,
+                reason=what,
+            )
+        )
     bare = [region.name for number, region in known.items() if number not in drawn]
     if bare:
         notes.append(f"without contours: {', '.join(bare)}")

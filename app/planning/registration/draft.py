@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.messages import sentence
+from app.core.messages import counted, sentence_of
 from app.core.rotation import rotation_log
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.core.words import counted
 from app.planning.placement import Placement
 from app.planning.plan import Plan
 from app.planning.registration.check import RegistrationCheck
@@ -52,23 +51,19 @@ class CheckDraft:
         """Return the check that the points give, or in words what is still missing."""
         lacking = FEWEST - len(self.touched)
         if lacking > 0:
-            return sentence(
-                "touch {lacking} more {fiducials}",
-                lacking=lacking,
-                fiducials=counted(lacking, "fiducial", "fiducials"),
-            )
+            return counted("touch {n} more fiducial", "touch {n} more fiducials", lacking)
         lacking = FEWEST - len(self.picked)
         if self.picked and lacking > 0:
-            return sentence(
-                "pick {lacking} more {beads} in the CT, or none",
-                lacking=lacking,
-                beads=counted(lacking, "bead", "beads"),
+            return counted(
+                "pick {n} more bead in the CT, or none",
+                "pick {n} more beads in the CT, or none",
+                lacking,
             )
         try:
             picked = points_of(self.picked) if self.picked else None
             return RegistrationCheck.of(plate, points_of(self.touched), picked)
         except RegistrationError as error:
-            return str(error)
+            return sentence_of(error)
 
 
 def _with(

@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
-from app.core.messages import sentence
+from app.core.messages import counted, sentence
 from app.core.rotation import closest_rotation
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
-from app.core.words import counted
 from app.planning.registration.errors import DegenerateFiducialsError, RegistrationError
 
 FEWEST = 3
@@ -158,12 +157,13 @@ def require_spread(points: FloatArray, name: str) -> None:
     """
     if len(points) < FEWEST:
         raise DegenerateFiducialsError(
-            sentence(
-                "{points_given} {name} {points}: a registration needs at least "
-                "{fewest}, and {fewest_to_check} to find a wrong one",
-                points_given=len(points),
+            counted(
+                "{n} {name} point: a registration needs at least {fewest}, and {fewest_to_check} "
+                "to find a wrong one",
+                "{n} {name} points: a registration needs at least {fewest}, and {fewest_to_check} "
+                "to find a wrong one",
+                len(points),
                 name=name,
-                points=counted(len(points), "point", "points"),
                 fewest=FEWEST,
                 fewest_to_check=FEWEST + 1,
             )

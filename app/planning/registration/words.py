@@ -4,19 +4,25 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.confidence import covariance_radius
-from app.core.messages import sentence
+from app.core.messages import listed, sentence, sentence_of
 from app.core.units import MILLIMETRE
 from app.planning.registration.check import PointCheck, RegistrationAgreement, RegistrationCheck
 from app.planning.registration.errors import RegistrationError
 
-NOT_CHECKED = "screen and needle: not checked"
+NOT_CHECKED = sentence("screen and needle: not checked")
 
 MEANING = (
-    "FRE says how well the points fit each other. It is not the accuracy at the target, and a "
-    "small FRE does not promise one.",
-    "FLE is the error of touching one point, estimated from the FRE. TRE is the error to expect "
-    "at the target: it grows with the distance from the fiducials.",
-    "A shift that all touches share, a wrong tip length for instance, does not show in the FRE.",
+    sentence(
+        "FRE says how well the points fit each other. It is not the accuracy at the target, and a "
+        "small FRE does not promise one."
+    ),
+    sentence(
+        "FLE is the error of touching one point, estimated from the FRE. TRE is the error to "
+        "expect at the target: it grows with the distance from the fiducials."
+    ),
+    sentence(
+        "A shift that all touches share, a wrong tip length for instance, does not show in the FRE."
+    ),
 )
 """What the technician's figures mean, one line each."""
 
@@ -35,22 +41,22 @@ def agreement_or_reason(
     try:
         return check.agreement(p_world)
     except RegistrationError as error:
-        return str(error)
+        return sentence_of(error)
 
 
 def troubles(check: RegistrationCheck) -> tuple[str, ...]:
     """Say what is wrong with the points, one line each, and what to do; empty if nothing is."""
-    parts = [("touched", check.world)]
+    lines = _troubles(sentence("touched"), check.world)
     if check.patient is not None:
-        parts.append(("picked", check.patient))
-    return tuple(line for verb, part in parts for line in _troubles(verb, part))
+        lines += _troubles(sentence("picked"), check.patient, of_ct=True)
+    return tuple(lines)
 
 
 def technician_lines(check: RegistrationCheck) -> tuple[str, ...]:
     """FRE, FLE and their meaning per part, one line each; TRE is said with a target."""
-    lines = list(_figures("touches", check.world))
+    lines = list(_figures(sentence("touches"), check.world))
     if check.patient is not None:
-        lines += _figures("picks in the CT", check.patient)
+        lines += _figures(sentence("picks in the CT"), check.patient)
     return tuple(lines)
 
 
@@ -88,20 +94,20 @@ def _figures(title: str, part: PointCheck) -> list[str]:
     ]
 
 
-def _troubles(verb: str, part: PointCheck) -> list[str]:
+def _troubles(verb: str, part: PointCheck, of_ct: bool = False) -> list[str]:
     if part.reordering is not None:
         moved = [part.names[i] for i in part.reordering.moved]
         return [
             sentence(
                 "fiducials {moved} were {verb} in another order: exchanged, they fit "
                 "within {mm} mm; name them again",
-                moved=" and ".join(moved),
+                moved=listed(moved),
                 verb=verb,
                 mm=_mm(part.reordering.fre),
             )
         ]
     if part.scale.wrong:
-        return [_scale_words(verb, part)]
+        return [_scale_words(verb, part, of_ct)]
     if part.outlier is not None:
         name = part.names[part.outlier.index]
         return [
@@ -139,16 +145,16 @@ def _troubles(verb: str, part: PointCheck) -> list[str]:
     return []
 
 
-def _scale_words(verb: str, part: PointCheck) -> str:
+def _scale_words(verb: str, part: PointCheck, of_ct: bool) -> str:
     off = part.scale.value - 1.0
     what = sentence(
         "lengths between the {verb} points are {off:.1%} too {direction} (± {part_scale_sd:.1%})",
         verb=verb,
         off=abs(off),
-        direction="long" if off > 0 else "short",
+        direction=sentence("long") if off > 0 else sentence("short"),
         part_scale_sd=part.scale.sd,
     )
-    if verb == "picked":
+    if of_ct:
         return sentence(
             "{finding}: the CT's spacing is wrong, or this is another plate", finding=what
         )
@@ -160,4 +166,5 @@ def _scale_words(verb: str, part: PointCheck) -> str:
 
 
 def _mm(length: float, digits: int = 2) -> str:
-    return f"{length / MILLIMETRE:.{digits}f}"
+    form = sentence("{mm:.1f}", mm=length / MILLIMETRE)
+    return form if digits == 1 else sentence("{mm:.2f}", mm=length / MILLIMETRE)

@@ -11,6 +11,7 @@ from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.session.checks.steps import CheckVerdict, StepResult, overall
 
 
@@ -66,15 +67,16 @@ class DayCheck(Strict):
         )
 
     def words(self, now: datetime) -> str:
-        """Say `checked today 08:12`, or when else, and whether all was well."""
-        day = "today" if self.created.date() == now.date() else f"{self.created:%Y-%m-%d}"
-        what = {
-            CheckVerdict.GOOD: "checked",
-            CheckVerdict.WARNING: "checked with remarks",
-            CheckVerdict.BAD: "check failed",
-            CheckVerdict.WAITING: "check not finished",
+        """Return `checked today 08:12`, or when else, and whether all was well."""
+        verdict = {
+            CheckVerdict.GOOD: sentence("checked"),
+            CheckVerdict.WARNING: sentence("checked with remarks"),
+            CheckVerdict.BAD: sentence("check failed"),
+            CheckVerdict.WAITING: sentence("check not finished"),
         }[self.verdict]
-        return f"{what} {day} {self.created:%H:%M}"
+        if self.created.date() == now.date():
+            return sentence("{verdict} today {time}", verdict=verdict, time=f"{self.created:%H:%M}")
+        return sentence("{verdict} {date:%Y-%m-%d %H:%M}", verdict=verdict, date=self.created)
 
 
 def checks_folder() -> Path:

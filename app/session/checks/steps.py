@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
-from app.core.messages import sentence
+from app.core.messages import joined, listed, sentence
 from app.core.units import MILLIMETRE
 from app.session.checks.facts import CameraFacts, DailyFacts
 
@@ -64,7 +64,7 @@ def overall(results: tuple[StepResult, ...]) -> CheckVerdict:
 
 
 def _homing(facts: DailyFacts) -> StepResult:
-    robot, title = facts.robot, "Homing"
+    robot, title = facts.robot, sentence("Homing")
     if not robot.ticking:
         return StepResult(
             "homing",
@@ -93,7 +93,7 @@ def _homing(facts: DailyFacts) -> StepResult:
 
 
 def _signs(facts: DailyFacts) -> StepResult:
-    robot, title = facts.robot, "Signs"
+    robot, title = facts.robot, sentence("Signs")
     if robot.simulated:
         return StepResult(
             "signs", title, CheckVerdict.GOOD, sentence("simulated robot: its signs are known")
@@ -110,7 +110,7 @@ def _signs(facts: DailyFacts) -> StepResult:
 
 
 def _force(facts: DailyFacts) -> StepResult:
-    robot, title = facts.robot, "Force"
+    robot, title = facts.robot, sentence("Force")
     if robot.fault:
         return StepResult(
             "force",
@@ -136,26 +136,30 @@ def _force(facts: DailyFacts) -> StepResult:
         )
     verdict = CheckVerdict.WARNING if clearance.force_cap > 0.0 else CheckVerdict.BAD
     return StepResult(
-        "force", title, verdict, f"at most {clearance.force_cap:g} N", clearance.reason
+        "force",
+        title,
+        verdict,
+        sentence("at most {force:g} N", force=clearance.force_cap),
+        clearance.reason,
     )
 
 
 def _pictures(facts: DailyFacts) -> StepResult:
-    title = "Pictures"
+    title = sentence("Pictures")
     if len(facts.cameras) < 2:
         return StepResult(
             "pictures",
             title,
             CheckVerdict.BAD,
-            f"{len(facts.cameras)} of 2 cameras",
+            sentence("{cameras} of 2 cameras", cameras=len(facts.cameras)),
             sentence("plug both cameras in; menu Cameras"),
         )
     worst = [(_picture(camera), camera.name) for camera in facts.cameras]
     for verdict in (CheckVerdict.BAD, CheckVerdict.WAITING, CheckVerdict.WARNING):
         for (found, text, todo), name in worst:
             if found is verdict:
-                return StepResult("pictures", title, verdict, f"{name}: {text}", todo)
-    rates = " and ".join(f"{camera.rate:.0f}" for camera in facts.cameras)
+                return StepResult("pictures", title, verdict, joined(": ", (name, text)), todo)
+    rates = listed(f"{camera.rate:.0f}" for camera in facts.cameras)
     return StepResult(
         "pictures",
         title,
@@ -167,42 +171,54 @@ def _pictures(facts: DailyFacts) -> StepResult:
 def _picture(camera: CameraFacts) -> tuple[CheckVerdict, str, str]:
     quality = camera.quality
     if camera.trouble:
-        return CheckVerdict.BAD, camera.trouble, "check the camera's cable; menu Cameras"
+        return CheckVerdict.BAD, camera.trouble, sentence("check the camera's cable; menu Cameras")
     if quality is None:
-        return CheckVerdict.WAITING, "no picture yet", "wait a moment"
+        return CheckVerdict.WAITING, sentence("no picture yet"), sentence("wait a moment")
     if quality.level < DARKEST or quality.dark > MOST_DARK:
-        return CheckVerdict.BAD, "the picture is dark", "lens cap, light, exposure"
+        return (
+            CheckVerdict.BAD,
+            sentence("the picture is dark"),
+            sentence("lens cap, light, exposure"),
+        )
     if quality.bright > MOST_BRIGHT:
         return (
             CheckVerdict.WARNING,
-            f"{100 * quality.bright:.0f} % of the picture is overexposed",
-            "less light, or a shorter exposure",
+            sentence("{share:.0f} % of the picture is overexposed", share=100.0 * quality.bright),
+            sentence("less light, or a shorter exposure"),
         )
     if camera.rate and camera.rate < RATE_SHARE * camera.wanted_rate:
         return (
             CheckVerdict.WARNING,
-            f"{camera.rate:.0f} pictures a second instead of {camera.wanted_rate:.0f}",
-            "own USB port for each camera; lock the exposure",
+            sentence(
+                "{rate:.0f} pictures a second instead of {wanted:.0f}",
+                rate=camera.rate,
+                wanted=camera.wanted_rate,
+            ),
+            sentence("own USB port for each camera; lock the exposure"),
         )
     if quality.edge_width is not None and quality.edge_width > WIDEST_EDGE:
         return (
             CheckVerdict.WARNING,
-            f"the marker's edge is {quality.edge_width:.1f} px wide",
-            "focus the lens on the needle and lock it",
+            sentence("the marker's edge is {width:.1f} px wide", width=quality.edge_width),
+            sentence("focus the lens on the needle and lock it"),
         )
     return CheckVerdict.GOOD, "", ""
 
 
 def _marker(facts: DailyFacts) -> StepResult:
-    title = "Marker"
+    title = sentence("Marker")
     missed = [(camera.name, camera.miss) for camera in facts.cameras if camera.miss]
     if len(facts.cameras) == 2 and not missed:
         return StepResult("marker", title, CheckVerdict.GOOD, sentence("found in both pictures"))
     if not facts.cameras:
         return StepResult(
-            "marker", title, CheckVerdict.WAITING, sentence("no pictures yet"), "pictures first"
+            "marker",
+            title,
+            CheckVerdict.WAITING,
+            sentence("no pictures yet"),
+            sentence("pictures first"),
         )
-    text = "; ".join(f"{name}: {why}" for name, why in missed) or sentence("only one camera")
+    text = joined("; ", (joined(": ", pair) for pair in missed)) or sentence("only one camera")
     return StepResult(
         "marker",
         title,
@@ -215,7 +231,7 @@ def _marker(facts: DailyFacts) -> StepResult:
 
 
 def _agreement(facts: DailyFacts) -> StepResult:
-    title = "Cameras agree"
+    title = sentence("Cameras agree")
     if facts.residual_px is None:
         return StepResult(
             "residual",
@@ -224,13 +240,13 @@ def _agreement(facts: DailyFacts) -> StepResult:
             facts.status or sentence("no point yet"),
             sentence("the marker must be seen by both cameras"),
         )
-    text = f"residual {facts.residual_px:.2f} px"
+    text = sentence("residual {residual:.2f} px", residual=facts.residual_px)
     if facts.status:
         return StepResult(
             "residual",
             title,
             CheckVerdict.BAD,
-            f"{text}: {facts.status}",
+            joined(": ", (text, facts.status)),
             sentence("a camera was moved, or robot and cameras differ: `acus calibrate world`"),
         )
     if facts.residual_px <= GOOD_RESIDUAL:

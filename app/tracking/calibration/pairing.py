@@ -18,7 +18,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.core.messages import sentence
+from app.core.messages import counted, sentence
 from app.tracking.calibration.pictures import has_pictures, list_pictures, strange_files
 from app.tracking.errors import CalibrationError
 
@@ -166,10 +166,12 @@ def split_by_camera(paths: Sequence[Path]) -> tuple[Keyed, Keyed, list[Path]]:
     cameras = sorted({camera for camera, _, _ in named}, key=int)
     if len(cameras) != 2:
         raise CalibrationError(
-            sentence(
-                "the names of the pictures speak of {cameras} camera(s); two are needed, "
+            counted(
+                "the names of the pictures speak of {n} camera; two are needed, "
                 "e.g. left01.png and right01.png",
-                cameras=len(cameras),
+                "the names of the pictures speak of {n} cameras; two are needed, "
+                "e.g. left01.png and right01.png",
+                len(cameras),
             )
         )
     left, right = (

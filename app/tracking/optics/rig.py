@@ -20,7 +20,7 @@ from pydantic import Field, model_validator
 from app.core import paths
 from app.core.arrays import FloatArray, unit
 from app.core.configuration import Strict, load
-from app.core.messages import sentence
+from app.core.messages import listed, sentence
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.errors import RigError
@@ -389,7 +389,7 @@ class ViewCone:
             texts.append(f"everything at {_ranges(gone, depths)}")
         if part:
             texts.append(sentence("part of it at {ranges}", ranges=_ranges(part, depths)))
-        return sentence("{name} loses {texts} mm depth", name=name, texts=" and ".join(texts))
+        return sentence("{name} loses {texts} mm depth", name=name, texts=listed(texts))
 
 
 def view_cone(

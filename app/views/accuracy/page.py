@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from app.views.accuracy.diagram import Diagram
 from app.views.kit import theme
 from app.views.kit.parts import button, label, table
-from app.views.kit.text import literal, tr
+from app.views.kit.text import listing, literal, tr
 from app.views.kit.verdict import Verdict, tell
 
 if TYPE_CHECKING:
@@ -255,7 +255,7 @@ class AccuracyPage(QWidget):
                 f"{point.error:.3g}",
                 share_words(noticed_share(outcome.result, point.way)),
                 duration(point.seconds),
-                ", ".join(marks) or tr("keeps both limits"),
+                listing(marks) or tr("keeps both limits"),
             )
             for place, text in enumerate(cells):
                 self.ways.setItem(row, place, QTableWidgetItem(text))

@@ -35,7 +35,6 @@ from app.core.configuration import FieldProblem
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
-from app.core.words import counted
 from app.exchange.acusx import (
     SUFFIX,
     CtMissingError,
@@ -86,7 +85,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label
 from app.views.kit.roles import STAFF, Role
 from app.views.kit.side_panel import scrolled
-from app.views.kit.text import literal, tr, translated
+from app.views.kit.text import listing, literal, tr, tr_n, translated
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
@@ -561,7 +560,7 @@ class AuthorFeature(Feature):
             return
         found = [layer.model_dump(mode="json", exclude_defaults=True) for layer in layers]
         self.editor.put("layers", value=found)
-        names = ", ".join(layer.name for layer in layers)
+        names = listing(layer.name for layer in layers)
         said = tr("{count} layers along the path: {names}", count=len(layers), names=names)
         bone = bone_before(layers, path.length_mm)
         if bone is None:
@@ -648,7 +647,7 @@ class AuthorFeature(Feature):
             return
         absent = [call["effect"] for call in result.get("called_for", ()) if call["absent"]]
         if absent:
-            lacks = tr("The patient calls for more: {names}.", names=", ".join(absent))
+            lacks = tr("The patient calls for more: {names}.", names=listing(absent))
             self._say(f"{words} {lacks}", Verdict.WARNING)
         else:
             self._say(f"{words} " + tr("Checked: the patient calls for nothing more."))
@@ -889,9 +888,11 @@ class AuthorFeature(Feature):
         if exercise is None or dialog is None:
             return
         dialog.score.skills.show_scores(rows, exercise.rules.pass_mark)
-        one = tr("1 attempt of each skill, without structures of risk")
-        many = tr("{n} attempts of each skill, without structures of risk", n=seeds)
-        said = counted(seeds, one, many)
+        said = tr_n(
+            "{n} attempt of each skill, without structures of risk",
+            "{n} attempts of each skill, without structures of risk",
+            seeds,
+        )
         if self.trial.running or seeds < TRIAL_SEEDS[-1]:
             said += "; " + tr("more are on their way …")
         dialog.score.tried.setText(said)

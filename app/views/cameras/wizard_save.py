@@ -31,7 +31,7 @@ from app.tracking.optics.calibration import StereoCalibration
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import add_row, button, column, label, table
-from app.views.kit.text import literal, tr, translated
+from app.views.kit.text import listing, literal, tr, translated
 from app.views.kit.verdict import Verdict, tell
 
 
@@ -71,7 +71,7 @@ class ImportDialog(QDialog):
     def set_files(self, files: Sequence[Path]) -> None:
         """Choose files, left before right, or one folder."""
         self.files = tuple(files)
-        names = ", ".join(path.name for path in self.files)
+        names = listing(path.name for path in self.files)
         self.chosen.setText(names or tr("nothing is chosen yet"))
         self.take.setEnabled(bool(self.files))
         tell(self.state, Verdict.IDLE, "")

@@ -14,7 +14,7 @@ from app.tracking.calibration.verdict import Grade, Why, judge
 from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
-from app.views.kit.text import number, tr
+from app.views.kit.text import listing, number, tr
 from app.views.kit.verdict import Verdict
 
 Line = tuple[Verdict, str]
@@ -42,7 +42,7 @@ def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection])
     if refused:
         alike = len({view.text for view in refused}) == 1
         each = [view.name if alike else f"{view.name} ({view.text})" for view in refused[:4]]
-        names = ", ".join(each) + (" …" if len(refused) > 4 else "")
+        names = listing(each) if len(refused) <= 4 else ", ".join(each) + " …"
         words += "; " + tr("not used: {names}", names=names)
         words += f" ({refused[0].text})" if alike else ""
     return words

@@ -31,7 +31,7 @@ from app.views.checks.toucher import Toucher, move_there, tell_tracker
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, size_dialog
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 
 LOOKS = {
     CheckVerdict.GOOD: theme.VERDICTS["good"],
@@ -62,8 +62,9 @@ class StepRow:
         colour, symbol = LOOKS[step.verdict]
         self._symbol.setText(symbol)
         self._symbol.setStyleSheet(f"color: {theme.now(colour)};")
-        self._title.setText(tr(step.title))
-        self._text.setText(f"{step.found}\n→ {step.todo}" if step.todo else step.found)
+        self._title.setText(translated(step.title))
+        result, todo = translated(step.found), translated(step.todo)
+        self._text.setText(f"{result}\n→ {todo}" if todo else result)
 
 
 def line(parent: QWidget) -> QFrame:
@@ -156,7 +157,7 @@ class DailyPage(QDialog):
         )
         save_check(check)
         self._show_day()
-        self.kept.emit(check.words(now))
+        self.kept.emit(translated(check.words(now)))
 
     # --- touching -----------------------------------------------------------------------------
     def _known(self) -> tuple[str, FloatArray] | None:
@@ -212,7 +213,9 @@ class DailyPage(QDialog):
     def _show_day(self) -> None:
         newest = newest_check()
         now = datetime.now().astimezone()
-        self._day.setText(newest.words(now) if newest is not None else tr("never checked"))
+        self._day.setText(
+            translated(newest.words(now)) if newest is not None else tr("never checked")
+        )
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()

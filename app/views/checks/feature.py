@@ -19,7 +19,7 @@ from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.roles import TECHNICIANS, Role
-from app.views.kit.text import tr, translated
+from app.views.kit.text import moment, tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
 
@@ -188,7 +188,7 @@ class ChecksFeature(Feature):
         self._show_error(run, check)
         checked = tr(
             "Checked {when} with {plate}.",
-            when=f"{record.created:%Y-%m-%d %H:%M}",
+            when=moment(record.created),
             plate=record.plate.name,
         )
         return (agreement_item(agreement, checked=checked, known=self._known),)

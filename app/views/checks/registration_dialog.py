@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
 from app.core.arrays import FloatArray
 from app.core.confidence import covariance_radius
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
@@ -42,7 +43,7 @@ from app.views.checks.toucher import Toucher, move_there
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, size_dialog
-from app.views.kit.text import tr, translated
+from app.views.kit.text import begun, tr, translated
 
 _STRETCHED = (1, 3)
 
@@ -153,40 +154,40 @@ class RegistrationResult(QWidget):
             used: T_world_patient that the screen uses; None without a run.
         """
         if isinstance(result, str):
-            self.student.setText(words.NOT_CHECKED.capitalize())
-            self.say(result.capitalize())
+            self.student.setText(begun(words.NOT_CHECKED))
+            self.say(begun(result))
             self.figures.setText("")
             return
         try:
             agreement = result.agreement(p_target, T_world_patient=used)
-            self.student.setText(words.student_line(agreement).capitalize())
+            self.student.setText(begun(words.student_line(agreement)))
             self.say("")
         except AcusError as error:
-            self.student.setText(words.NOT_CHECKED.capitalize())
+            self.student.setText(begun(words.NOT_CHECKED))
             self.say(translated(error))
         if troubles := words.troubles(result):
-            self.say("\n".join(troubles))
+            self.say("\n".join(map(translated, troubles)))
         lines = list(words.technician_lines(result))
         if result.trusted:
             lines.append(words.target_line(result, p_target))
-        self.figures.setText("\n".join([*lines, *words.MEANING]))
+        self.figures.setText("\n".join(map(translated, [*lines, *words.MEANING])))
 
 
 _BUTTONS = {
-    "touch": tr("Touch now"),
-    "move": tr("Bring the simulated tip there"),
-    "pick": tr("Pick the bead at the crosshair"),
-    "forget": tr("Forget"),
-    "undo": tr("Undo"),
-    "redo": tr("Redo"),
-    "place": tr("Use the measured place"),
-    "save": tr("Save"),
+    "touch": sentence("Touch now"),
+    "move": sentence("Bring the simulated tip there"),
+    "pick": sentence("Pick the bead at the crosshair"),
+    "forget": sentence("Forget"),
+    "undo": sentence("Undo"),
+    "redo": sentence("Redo"),
+    "place": sentence("Use the measured place"),
+    "save": sentence("Save"),
 }
 
 
 def make_buttons(parent: QWidget) -> dict[str, QPushButton]:
     """Return the buttons by name."""
-    buttons = {name: QPushButton(title, parent) for name, title in _BUTTONS.items()}
+    buttons = {name: QPushButton(translated(title), parent) for name, title in _BUTTONS.items()}
     buttons["save"].setProperty("role", "primary")
     return buttons
 

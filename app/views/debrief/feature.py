@@ -48,7 +48,7 @@ from app.session.roster import looks_like_a_key
 from app.session.store import computed, find, verdict_of
 from app.session.summary import Summary
 from app.views.debrief.gathering import Gathering
-from app.views.debrief.page import DebriefPage, date_text
+from app.views.debrief.page import DebriefPage
 from app.views.debrief.replay import Ghost
 from app.views.debrief.report import report_bytes
 from app.views.debrief.score_words import hand_word
@@ -62,7 +62,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box, size_dialog
 from app.views.kit.roles import EVERYBODY, STAFF, Role
-from app.views.kit.text import declared, tr, translated
+from app.views.kit.text import date_text, declared, tr, tr_n, translated
 from app.views.shell.feature import Context, Feature
 from app.views.structures.layer import draw_in
 
@@ -125,6 +125,12 @@ class DebriefController(QObject):
     def show_result(self, result: AttemptResult) -> None:
         """Show an attempt that has just finished."""
         self._read(lambda: review_of_result(result))
+
+    def go_on(self, other: DebriefController) -> None:
+        """Show the attempt that another window's debrief shows, if it shows one."""
+        shown, self.exercise = other._shown, other.exercise
+        if shown is not None:
+            self._read(lambda: shown)
 
     def open_session(self, session_id: str) -> None:
         """Show a recorded session."""
@@ -713,10 +719,10 @@ class Interruptions(QObject):
         ]
         if len(result) > _NAMED:
             lines.append(tr("and {n} more", n=len(result) - _NAMED))
-        ended_in = (
-            tr("The program ended in the middle of an attempt:")
-            if len(result) == 1
-            else tr("The program ended in the middle of {n} attempts:", n=len(result))
+        ended_in = tr_n(
+            "The program ended in the middle of {n} attempt:",
+            "The program ended in the middle of {n} attempts:",
+            len(result),
         )
         keeps = tr(
             "Recover keeps what was recorded: it stays in the list as unfinished, without a score. "
@@ -927,6 +933,14 @@ class DebriefFeature(Feature):
         """Go to the attempt that the debrief shows; the keyboard replays it."""
         self.context.shell.show_page(self.page)
         self.page.bar.slider.setFocus()
+
+    def go_on(self, other: DebriefFeature, page: QWidget | None) -> None:
+        """Show what another window showed on `page`, where that is one of this feature's."""
+        if page is other.page:
+            self._controller.go_on(other._controller)
+            self.show()
+        elif page is other.sessions:
+            self.show_sessions()
 
     def show_sessions(self) -> None:
         """Go to the past attempts."""

@@ -8,13 +8,12 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QMenu, QMessageBox, QWidget
 
-from app.core.words import counted
 from app.session.elsewhere import Elsewhere, elsewhere, gather, signed_here
 from app.session.people import People
 from app.views.kit.background import run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, tr_n
 
 
 class Gathering(QObject):
@@ -99,9 +98,13 @@ class Gathering(QObject):
         self._busy = False
         self._show(None, 0)
         self._after()
-        one = tr("1 attempt has come; it is in the list (F7).")
-        many = tr("{n} attempts have come; they are in the list (F7).", n=count)
-        self.noted.emit(counted(count, one, many))
+        self.noted.emit(
+            tr_n(
+                "{n} attempt has come; it is in the list (F7).",
+                "{n} attempts have come; they are in the list (F7).",
+                count,
+            )
+        )
 
     def _fail(self, error: Exception) -> None:
         self._busy = False

@@ -21,7 +21,7 @@ from app.core.arrays import FloatArray
 from app.scoring.met import LEAST_MM, Met
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, tr_n
 from app.views.kit.theme import Mark, Symbol
 from app.views.scene.view import SceneView
 from app.views.slices.canvas import SliceCanvas
@@ -125,7 +125,7 @@ def _place(group: Sequence[Met], forbidden: Collection[str], origin: float) -> M
         f"{name} ({word})" if name != word else name,
         tr("✖ This fails the attempt.") if fails else "",
         tr("{met}, at {when}", met=group[0].sentence, when=clock_text(group[0].time - origin)),
-        tr("met {n} times here", n=len(group)) if len(group) > 1 else "",
+        tr_n("met {n} time here", "met {n} times here", len(group)) if len(group) > 1 else "",
         tr("longest way in it: {mm:.1f} mm", mm=longest.length_mm),
         tr("largest force along the needle: {force:.1f} N", force=max(forces))
         if forces

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from datetime import datetime
 from typing import Final
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
@@ -64,7 +63,7 @@ from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.roles import Role
-from app.views.kit.text import declared, disclaimer, literal, number, tr
+from app.views.kit.text import date_text, declared, disclaimer, literal, number, tr
 
 _ROW_HEIGHT = 24
 _COLUMNS = 5
@@ -717,11 +716,3 @@ def facts(review: Review) -> str:
             tr("control scans: {n}", n=review.scans),
         )
     )
-
-
-def date_text(started: str) -> str:
-    """Say a wall-clock time (ISO 8601) in local time; as it stands if it is no time."""
-    try:
-        return f"{datetime.fromisoformat(started).astimezone():%Y-%m-%d %H:%M}"
-    except ValueError:
-        return started

@@ -21,14 +21,13 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
-from app.core.words import counted
 from app.session.admission import admit
 from app.session.errors import PeopleError
 from app.session.people import NOTHING_SAID, People, Remarks
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import label
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import literal, tr
+from app.views.kit.text import keys_text, literal, tr, tr_n
 
 
 def said_words(answer: Remarks, held: str = "") -> list[str]:
@@ -217,7 +216,7 @@ class RemarkActions(QObject):
     # --- inside -----------------------------------------------------------------------------------
     def _add(self, text: str, keys: str, tip: str) -> QAction:
         """Make an action whose keys are this page's: another page has actions of the same."""
-        action = QAction(f"{text}\t{keys}" if keys else text, self._page)
+        action = QAction(f"{text}\t{keys_text(keys)}" if keys else text, self._page)
         if keys:
             shortcut = QShortcut(QKeySequence(keys), self._page, lambda: self._press(action))
             shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
@@ -242,16 +241,14 @@ class RemarkActions(QObject):
         if not reason:
             raise PeopleError(tr("Say why: the student reads it in the list and in the debrief."))
         self._write(ids, void=reason)
-        many = tr("{n} attempts declared void", n=len(ids))
-        self.noted.emit(counted(len(ids), tr("1 attempt declared void"), many))
+        self.noted.emit(tr_n("{n} attempt declared void", "{n} attempts declared void", len(ids)))
 
     def _admit(self, ids: Sequence[str], reason: str) -> None:
         if not ACCESS.may_manage or self._record is None:
             raise PeopleError(tr("Only the instructor does that: Sessions ▸ Sign in."))
         admit([self._record(name) for name in ids], reason)
         self.changed.emit()
-        many = tr("{n} attempts admitted", n=len(ids))
-        self.noted.emit(counted(len(ids), tr("1 attempt admitted"), many))
+        self.noted.emit(tr_n("{n} attempt admitted", "{n} attempts admitted", len(ids)))
 
     def _say(self, done: str, **message: str | bool) -> None:
         ids = self._ids()
@@ -264,8 +261,9 @@ class RemarkActions(QObject):
         except AcusError as error:
             self.failed.emit(error)
         else:
-            many = tr("{done}: {n} attempts", done=done, n=len(ids))
-            self.noted.emit(counted(len(ids), tr("{done}: 1 attempt", done=done), many))
+            self.noted.emit(
+                tr_n("{done}: {n} attempt", "{done}: {n} attempts", len(ids), done=done)
+            )
 
     def _write(self, ids: Sequence[str], **message: str | bool) -> None:
         if not ACCESS.may_manage:

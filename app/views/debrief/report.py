@@ -32,7 +32,6 @@ from app.session.control_scan import TEACHING_ESTIMATE
 from app.session.review import Review
 from app.session.timeline import Span, TimeMark
 from app.views.debrief.curves import Curve, curves_of, time_end, value_range
-from app.views.debrief.page import date_text
 from app.views.debrief.path_view import paint_track
 from app.views.debrief.score_words import (
     counting,
@@ -49,7 +48,7 @@ from app.views.exercise.pad_canvas import PadArea
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.stages import state_word
 from app.views.kit.access import ACCESS
-from app.views.kit.text import declared, disclaimer, number, tr, translated
+from app.views.kit.text import date_text, declared, disclaimer, number, tr, translated
 
 
 def paint_path(painter: QPainter, box: QRectF, review: Review) -> None:

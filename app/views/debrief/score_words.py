@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 from app.core.messages import joined
 from app.core.units import MILLIMETRE
-from app.core.words import counted
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.scoring.pass_line import pass_words
 from app.scoring.result import Score
@@ -19,7 +18,7 @@ from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.roles import Role
-from app.views.kit.text import begun, declared, tr
+from app.views.kit.text import begun, declared, listing, tr, tr_n
 from app.views.kit.text import number as local
 
 
@@ -217,7 +216,7 @@ def _exercise(c: Conditions) -> str:
 def _views(c: Conditions) -> str:
     if c.views is None:
         return tr("not recorded")
-    return ", ".join(view.replace("_", " ") for view in c.views) or tr("none")
+    return listing(view.replace("_", " ") for view in c.views) or tr("none")
 
 
 def _robot(c: Conditions) -> str:
@@ -350,8 +349,7 @@ LEAST_ASIDE_MM = 0.3
 
 def points_words(points: float) -> str:
     """Say so many points."""
-    n = round(points)
-    return counted(n, tr("1 point"), tr("{n} points", n=n))
+    return tr_n("{n} point", "{n} points", round(points))
 
 
 def proposal_words(proposal: Proposal) -> str:
@@ -439,7 +437,7 @@ def verdict(review: Review) -> tuple[str, str, str]:
         return theme.WARNING, tr("▲ Void"), f"{why} {remedy(score, review.conditions)}"
     if score.passed:
         return theme.GOOD, tr("✔ Passed") if review.drill is None else tr("✔ Reached"), ""
-    failures = ", ".join(metric_title(row) for row in score.failures)
+    failures = listing(metric_title(row) for row in score.failures)
     if score.hard_fails:
         reason = begun(joined("; ", score.hard_fails))
     elif failures:

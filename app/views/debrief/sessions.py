@@ -40,7 +40,6 @@ from app.session.interrupted import interrupted, recover
 from app.session.people import NOTHING_SAID, People, Remarks
 from app.session.store import SUFFIX, delete, list_sessions, restore
 from app.session.summary import BROKEN, Summary
-from app.views.debrief.page import date_text
 from app.views.debrief.remarks import RemarkActions, said_words
 from app.views.debrief.score_words import facts_of, short_words, whose_words
 from app.views.exercise.readouts import clock_text
@@ -50,7 +49,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import FittingButton, PlainLabel
-from app.views.kit.text import declared, literal, tr, translated
+from app.views.kit.text import date_text, declared, literal, tr, tr_n, translated
 
 Index = QModelIndex | QPersistentModelIndex
 SORT_ROLE: Final = Qt.ItemDataRole.UserRole
@@ -112,7 +111,10 @@ class Listed:
         days = UNDO_DAYS - (time.time() - self.deleted.get(summary.id, 0.0)) / 86400.0
         if short:
             told = (
-                (summary.id in self.deleted, tr("{n} days left", n=max(0, int(days)))),
+                (
+                    summary.id in self.deleted,
+                    tr_n("{n} day left", "{n} days left", max(0, int(days))),
+                ),
                 (bool(said.void), tr("void: {why}", why=said.void)),
                 (bool(said.comment), f"“{said.comment}”"),
                 (bool(held) and manages, tr("not released")),
@@ -125,7 +127,11 @@ class Listed:
         if summary.id in self.deleted:
             lines.insert(
                 0,
-                tr("deleted; can be brought back for {n} days", n=int(days))
+                tr_n(
+                    "deleted; can be brought back for {n} day",
+                    "deleted; can be brought back for {n} days",
+                    int(days),
+                )
                 if days >= 1.0
                 else tr("deleted; can be brought back until the trash is emptied"),
             )

@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.core.words import counted
 from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import HandName, Lock
 from app.exercises.parts import OwnPlan, ViewName
@@ -31,7 +30,7 @@ from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import FittingButton, PlainLabel, button, label
-from app.views.kit.text import declared, literal, number, tr
+from app.views.kit.text import declared, listing, literal, number, tr, tr_n
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -122,7 +121,7 @@ def locked_words(exercise: Exercise) -> list[str]:
     locked = [words for lock, words in names.items() if lock in exercise.locked]
     if not locked:
         return [tr("Nothing: you may change help, views and layout.")]
-    words = ", ".join(locked)
+    words = listing(locked)
     return [tr("Stays as it is: {what}.", what=words)]
 
 
@@ -158,7 +157,7 @@ def aid_words(exercise: Exercise) -> list[str]:
         )
     shown = [view_title(view) for view in ViewName if view in exercise.shown_views]
     if shown:
-        said.append(tr("Shown: {views}.", views=", ".join(shown)))
+        said.append(tr("Shown: {views}.", views=listing(shown)))
     return said
 
 
@@ -183,13 +182,15 @@ class AttemptsLeft:
         if self.allowed is None:
             said = "" if self.refusal else tr("Any number of attempts.")
         elif self.used is None:
-            many = tr("{n} attempts are allowed.", n=self.allowed)
-            said = counted(self.allowed, tr("1 attempt is allowed."), many)
+            said = tr_n("{n} attempt is allowed.", "{n} attempts are allowed.", self.allowed)
         else:
             left = max(0, self.allowed - self.used)
-            many = tr("{left} of {n} attempts are left.", left=left, n=self.allowed)
-            one = tr("The one attempt is left.") if left else tr("The one attempt is used.")
-            said = counted(self.allowed, one, many)
+            said = tr_n(
+                "{left} of {n} attempt is left.",
+                "{left} of {n} attempts are left.",
+                self.allowed,
+                left=left,
+            )
         if self.course:
             said += " " + tr("Course: {title}.", title=self.course)
         if self.refusal:

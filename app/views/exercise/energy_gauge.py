@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.core import state_vector as sv
 from app.session.snapshot import Snapshot
 from app.views.kit import theme
-from app.views.kit.text import literal, tr
+from app.views.kit.text import listing, literal, tr
 from app.views.kit.verdict import Verdict
 
 LITTLE = 0.1
@@ -101,7 +101,7 @@ def guard_words(figures: EnergyFigures | None) -> tuple[Verdict, str]:
             parts.append(tr("force at {share:.0f} %", share=100 * max(0.0, figures.scale)))
         if figures.damping > 0.0:
             parts.append(tr("damping added"))
-        return Verdict.WARNING, tr("guard acts: {what}", what=", ".join(parts))
+        return Verdict.WARNING, tr("guard acts: {what}", what=listing(parts))
     if figures.share_left < LITTLE:
         return Verdict.WARNING, tr("tank nearly empty")
     return Verdict.GOOD, tr("guard at rest")

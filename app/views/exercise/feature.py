@@ -21,7 +21,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.question import ask
 from app.views.kit.roles import EVERYBODY, TECHNICIANS, Role
-from app.views.kit.text import declared, tr, translated
+from app.views.kit.text import declared, listing, tr, translated
 from app.views.shell.feature import Context, Feature
 
 
@@ -149,7 +149,7 @@ class ExerciseFeature(Feature):
         """Take an exercise and open its patient, unless it is shown already."""
         exercise = self.exercises.get(identifier)
         if exercise is None:
-            names = ", ".join(self.exercises)
+            names = listing(self.exercises)
             self._shell.messages.show_error(
                 tr("There is no exercise {name}; there are: {names}", name=identifier, names=names)
             )

@@ -32,7 +32,7 @@ from app.core.arrays import FloatArray
 from app.session.pad.view import NeedleLine, PadScene
 from app.views.exercise.hands.feed import DEPTH_STEP, FINE_DEPTH_STEP, GONE, SPEED, Feed
 from app.views.kit import theme
-from app.views.kit.text import literal, tr
+from app.views.kit.text import listing, literal, tr
 
 _FAR_MM: Final = (10, 40)
 """Radii of the rings beyond the tolerance [mm]: in the unit of all others."""
@@ -372,7 +372,7 @@ class PadCanvas(QWidget):
             paint_hidden(painter, self.area, words)
             return
         unnamed = paint_background(painter, self.area, self._scene)
-        self.setToolTip(literal(tr("Rings: {sizes}", sizes=", ".join(unnamed)) if unnamed else ""))
+        self.setToolTip(literal(tr("Rings: {sizes}", sizes=listing(unnamed)) if unnamed else ""))
         if self._view is not None:
             places = [place for _, place in self._dots]
             paint_dot(painter, self.area, places, self._view.measured)

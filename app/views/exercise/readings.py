@@ -26,7 +26,7 @@ from app.views.exercise.status_items import (
     tracker_item,
 )
 from app.views.exercise.tracker_panel import TrackerFigures
-from app.views.kit.text import tr
+from app.views.kit.text import listing, tr
 from app.views.kit.verdict import StatusItem
 
 _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
@@ -153,7 +153,7 @@ def problem(statistics: TrackerStatistics) -> str:
     if statistics.status is FixStatus.NO_PICTURE:
         return tr("a picture is late")
     if statistics.status is FixStatus.ONE_CAMERA:
-        names = ", ".join(camera_name(name) for name in statistics.missing)
+        names = listing(camera_name(name) for name in statistics.missing)
         return tr("marker out of view ({cameras})", cameras=names)
     if statistics.discrepancy:
         return statistics.discrepancy

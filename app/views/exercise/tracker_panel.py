@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, Final
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
+from app.core.messages import sentence
 from app.views.exercise.camera_view import CameraView, Overlays
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import StatusItem
 
 if TYPE_CHECKING:
@@ -152,7 +153,7 @@ class TrackerPanel(QWidget):
         ):
             button = QToolButton(self)
             button.setText(title)
-            button.setToolTip(literal(help_))
+            button.setToolTip(literal(translated(help_)))
             button.setCheckable(True)
             button.setChecked(getattr(self.overlays, name))
             button.toggled.connect(lambda on, name=name: self.set_overlay(name, on))
@@ -188,10 +189,10 @@ class _Figures(QWidget):
         grid.setVerticalSpacing(0)
         self._values: dict[str, QLabel] = {}
         for number, (name, title, help_) in enumerate(_TITLES):
-            label, value = PlainLabel(title, self), PlainLabel("–", self)
+            label, value = PlainLabel(translated(title), self), PlainLabel("–", self)
             label.setProperty("role", "dim")
-            label.setToolTip(literal(help_))
-            value.setToolTip(literal(help_))
+            label.setToolTip(literal(translated(help_)))
+            value.setToolTip(literal(translated(help_)))
             row, column = divmod(number, 2)
             grid.addWidget(label, row, 2 * column)
             grid.addWidget(value, row, 2 * column + 1)
@@ -221,7 +222,7 @@ class _Figures(QWidget):
                 )
             )
         else:
-            self._values["radius"].setToolTip(literal(_HELP["radius"]))
+            self._values["radius"].setToolTip(literal(translated(_HELP["radius"])))
         texts = {
             "residual": residual_text(residual),
             "radius": size,
@@ -253,21 +254,27 @@ def residual_text(residual_px: float | None) -> str:
 _TITLES: Final = (
     (
         "residual",
-        tr("Residual"),
-        tr(
+        sentence("Residual"),
+        sentence(
             "How far the two pictures disagree; above 1 px the calibration should be checked. It "
             "is no accuracy: a wrong scale leaves it small"
         ),
     ),
     (
         "radius",
-        tr("Tip, 95 %"),
-        tr("Radius round the tip that holds the true one with 95 %, by pictures and calibration"),
+        sentence("Tip, 95 %"),
+        sentence(
+            "Radius round the tip that holds the true one with 95 %, by pictures and calibration"
+        ),
     ),
-    ("rate", tr("Rate"), tr("Pairs of pictures a second")),
-    ("valid", tr("Valid"), tr("Share of pairs in which both cameras saw the marker")),
-    ("latency", tr("Latency"), tr("From capture to the needle's place, median")),
-    ("skew", tr("Skew"), tr("Capture of the right picture after the left one; it is made up for")),
+    ("rate", sentence("Rate"), sentence("Pairs of pictures a second")),
+    ("valid", sentence("Valid"), sentence("Share of pairs in which both cameras saw the marker")),
+    ("latency", sentence("Latency"), sentence("From capture to the needle's place, median")),
+    (
+        "skew",
+        sentence("Skew"),
+        sentence("Capture of the right picture after the left one; it is made up for"),
+    ),
 )
 
 _HELP: Final = {name: help_ for name, _, help_ in _TITLES}

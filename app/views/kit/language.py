@@ -21,26 +21,18 @@ import PySide6
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QSettings, QTranslator
 
 from app.core import paths
-from app.views.kit.text import use_decimal_point
-
-ENGLISH: Final = "en"
-"""The language of the source, which needs no file."""
+from app.core.language import ENGLISH, PREFIX, folder
+from app.views.kit.text import begin_language
 
 KEY: Final = "language"
 """Of the settings: a code; empty or absent for the system's language."""
 
-_PREFIX: Final = "acus_"
 _LONGEST_S: Final = 30.0
-
-
-def folder() -> Path:
-    """Return the folder of the shipped `acus_<code>.ts` files."""
-    return paths.resources() / "translations"
 
 
 def languages(within: Path | None = None) -> dict[str, str]:
     """Return code -> the language's name in itself, English first."""
-    codes = sorted(path.stem.removeprefix(_PREFIX) for path in _files(within or folder()))
+    codes = sorted(path.stem.removeprefix(PREFIX) for path in _files(within or folder()))
     return {ENGLISH: "English"} | {code: _name(code) for code in codes}
 
 
@@ -81,15 +73,16 @@ def use_language(
     code = code_for(choice, within)
     locale = QLocale(code) if code != ENGLISH or choice else QLocale.system()
     QLocale.setDefault(locale)
-    use_decimal_point("." if code == ENGLISH else QLocale(code).decimalPoint())
     if code == ENGLISH:
+        begin_language(english=True)
         return code
-    own = _compiled((within or folder()) / f"{_PREFIX}{code}.ts")
+    own = _compiled((within or folder()) / f"{PREFIX}{code}.ts")
     qt = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)) / f"qtbase_{code}.qm"
     for file in (qt, own):  # the last one is asked first
         translation = _Translation(application)
         if file is not None and file.is_file() and translation.load(str(file)):
             application.installTranslator(translation)
+    begin_language(english=False)
     return code
 
 
@@ -98,7 +91,7 @@ class _Translation(QTranslator):
 
 
 def _files(within: Path) -> Iterator[Path]:
-    return within.glob(f"{_PREFIX}*.ts")
+    return within.glob(f"{PREFIX}*.ts")
 
 
 def _name(code: str) -> str:

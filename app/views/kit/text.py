@@ -1,30 +1,44 @@
 """Every string the user sees passes through here to Qt's translation."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable
+from datetime import date, datetime
 from html import escape
-from string import Formatter
-from typing import Any
 
 from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import Qt
 
-from app.core.messages import Sentence, sentence_of
+from app.core.messages import listed
+from app.core.texts import Texts
 
 CONTEXT = ""
 """The one translation context, as `lupdate` writes it for a plain function: the same English text
 has the same meaning everywhere."""
+
+_TEXTS = Texts(lambda english, n: QCoreApplication.translate(CONTEXT, english, None, n))
 
 
 def tr(text: str, **values: object) -> str:
     """Return `text` in the user's language, its `{names}` filled with `values`.
 
     Called when the string is needed, never at import: the translation is loaded after the modules.
-    `pyside6-lupdate -tr-function-alias tr` finds the calls; the text must therefore be a literal.
-    Values that are sentences or errors of the lower rooms come in the user's language as well. A
-    translation that the values do not fit is not shown: the text is English then.
+    `tools.translations` collects the calls; the text must therefore be a literal. Values that are
+    sentences or errors of the lower rooms come in the user's language as well. A translation that
+    the values do not fit is not shown: the text is English then.
     """
-    pattern = QCoreApplication.translate(CONTEXT, text)
-    return _fitted(pattern, text, _shown(values)) if values else pattern
+    return _TEXTS.text(text, values)
+
+
+def tr_n(single: str, several: str, n: int, **values: object) -> str:
+    """Return what is said of `n` things in the user's language; `{n}` in it is that number.
+
+    Args:
+        single: in English of one thing; a literal.
+        several: in English of any other number; a literal, which translators see.
+        n: how many.
+        values: as of `tr`.
+    """
+    return _TEXTS.counted(single, several, n, values)
 
 
 def declared(text: str) -> str:
@@ -32,7 +46,7 @@ def declared(text: str) -> str:
 
     `tools.translations` collects these from their files; what somebody else wrote stays as it is.
     """
-    return QCoreApplication.translate(CONTEXT, text) if text else ""
+    return _TEXTS.text(text) if text else ""
 
 
 def translated(message: str | BaseException) -> str:
@@ -42,11 +56,7 @@ def translated(message: str | BaseException) -> str:
         message: a `core.messages.Sentence`, or an error raised with one, is translated, and so are
             the sentences among its values; every other text and error comes as it is.
     """
-    text = sentence_of(message) if isinstance(message, BaseException) else message
-    if not isinstance(text, Sentence):
-        return str(text)
-    pattern = QCoreApplication.translate(CONTEXT, text.template)
-    return _fitted(pattern, text.template, _shown(text.values))
+    return _TEXTS.translated(message)
 
 
 def begun(message: str | BaseException) -> str:
@@ -55,53 +65,55 @@ def begun(message: str | BaseException) -> str:
     return text[:1].upper() + text[1:]
 
 
-class _Local(Formatter):
-    """Fills a pattern, decimal numbers with the language's own point."""
-
-    point = "."
-
-    def format_field(self, value: Any, format_spec: str) -> Any:
-        """Format one value."""
-        text = super().format_field(value, format_spec)
-        return text.replace(".", self.point) if isinstance(value, float) else text
+def begin_language(english: bool) -> None:
+    """Write numbers and dates of all texts from now on as the language that is loaded does."""
+    _TEXTS.begin(english)
 
 
-_LOCAL = _Local()
-
-
-def use_decimal_point(point: str) -> None:
-    """Write decimal numbers of all texts from now on with this point."""
-    _LOCAL.point = point
+def in_english() -> bool:
+    """Return whether the texts are those of the source."""
+    return _TEXTS.is_english
 
 
 def number(value: float, form: str) -> str:
     """Return a number by a format such as `.1f`, with the language's own decimal point."""
-    return format(value, form).replace(".", _LOCAL.point)
+    return _TEXTS.number(value, form)
 
 
-def _fitted(pattern: str, english: str, values: Mapping[str, object]) -> str:
+def moment(when: datetime) -> str:
+    """Return a date with hour and minute as the user's language writes them."""
+    return _TEXTS.moment(when)
+
+
+def date_text(started: str) -> str:
+    """Return a wall-clock time (ISO 8601) as local time; as it stands if it is no time."""
     try:
-        return _filled(pattern, values)
-    except (LookupError, ValueError, TypeError, AttributeError):
-        if pattern == english:
-            raise
-        return _filled(english, values)  # the translation names other values
+        return moment(datetime.fromisoformat(started).astimezone())
+    except ValueError:
+        return started
 
 
-def _filled(pattern: str, values: Mapping[str, object]) -> str:
-    if _LOCAL.point == ".":
-        return pattern.format(**values)
-    return _LOCAL.vformat(pattern, (), values)
+def listing(parts: Iterable[str]) -> str:
+    """Return parts as the user's language lists them: "a, b and c"."""
+    return translated(listed(parts))
 
 
-def _shown(values: Mapping[str, object]) -> dict[str, object]:
-    sentences = {
-        name: value if isinstance(value, Sentence) else sentence_of(value)
-        for name, value in values.items()
-        if isinstance(value, Sentence | BaseException)
-    }
-    parts = {name: part for name, part in sentences.items() if isinstance(part, Sentence)}
-    return {**values, **{name: translated(part) for name, part in parts.items()}}
+def day(when: date) -> str:
+    """Return a date as the user's language writes it."""
+    return _TEXTS.day(when)
+
+
+_KEYS = re.compile(
+    r"\b(Ctrl|Shift|Alt|Esc|Return|Enter|Space|Backspace|Del|Home|End|PgUp|PgDown)\b"
+)
+
+
+def keys_text(keys: str) -> str:
+    """Return keys as the keyboards of the user's language name them: `Ctrl+B` is `Strg+B`.
+
+    Qt has the names among its own translations.
+    """
+    return _KEYS.sub(lambda key: QCoreApplication.translate("QShortcut", key[0]), keys)
 
 
 def literal(text: str) -> str:

@@ -29,6 +29,7 @@ from app.exchange.csv_export import write_measurements
 from app.planning.measurements import KINDS, Measurement
 from app.views.kit import theme
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.parts import FittingButton
 from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import literal, tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
@@ -87,9 +88,9 @@ class MeasurePanel(QWidget):
         self.buttons = {tool: self._tool_button(tool) for tool in TOOLS}
         self.table = QTableWidget(0, 2, self)
         self.table.setTabKeyNavigation(False)
-        self.remove = QPushButton(tr("Remove"), self)
-        self.clear = QPushButton(tr("Remove all"), self)
-        self.export = QPushButton(tr("Export…"), self)
+        self.remove = FittingButton(tr("Remove"), self)
+        self.clear = FittingButton(tr("Remove all"), self)
+        self.export = FittingButton(tr("Export…"), self)
         self._prepare()
         self._lay_out()
         editor.changed.connect(self.refresh)

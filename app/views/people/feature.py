@@ -14,7 +14,6 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QMessageBox
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
-from app.core.words import counted
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
 from app.session.access import Known
@@ -40,7 +39,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
 from app.views.kit.roles import EVERYBODY, STAFF, Role
-from app.views.kit.text import declared, tr
+from app.views.kit.text import declared, tr, tr_n
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -357,9 +356,14 @@ class PeopleFeature(Feature):
             self._tell(tr("Roster"), words, "\n".join(report.errors))
             return
         added, updated = len(report.added), len(report.updated)
-        one = tr("1 student added, {m} updated", m=updated)
-        many = tr("{n} students added, {m} updated", n=added, m=updated)
-        self.noted.emit(counted(added, one, many))
+        self.noted.emit(
+            tr_n(
+                "{n} student added, {m} updated",
+                "{n} students added, {m} updated",
+                added,
+                m=updated,
+            )
+        )
         if report.pins:
             pins = "\n".join(f"{name}\t{pin}" for name, pin in report.pins.items())
             words = tr("Hand these out; they are kept nowhere.")
@@ -454,12 +458,15 @@ class PeopleFeature(Feature):
         if not self._may():
             return
         ids = list(self._look.waiting.get(course.id, ())) if self._look is not None else []
-        many = tr("Release {n} results of {title}?", n=len(ids), title=course.title)
-        one = tr("Release 1 result of {title}?", title=course.title)
         box = message_box(
             self._shell.dialog_parent,
             tr("Release results"),
-            counted(len(ids), one, many),
+            tr_n(
+                "Release {n} result of {title}?",
+                "Release {n} results of {title}?",
+                len(ids),
+                title=course.title,
+            ),
             tr("Their students see score, replay and your comments then. Each can be held back."),
         )
         release = box.addButton(tr("Release"), QMessageBox.ButtonRole.AcceptRole)
@@ -468,8 +475,7 @@ class PeopleFeature(Feature):
         def answered(clicked: object) -> None:
             if clicked is release and ids and self._may():
                 self._try(lambda: self._people.remark_all(ids, released=True))
-                many = tr("{n} results released", n=len(ids))
-                self.noted.emit(counted(len(ids), tr("1 result released"), many))
+                self.noted.emit(tr_n("{n} result released", "{n} results released", len(ids)))
                 self._changed()
 
         box.buttonClicked.connect(answered)

@@ -40,19 +40,17 @@ from PySide6.QtWidgets import (
 
 from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
-from app.core.words import counted
 from app.exercises.guidance import Purpose
 from app.exercises.schema import Exercise
 from app.session.board import BoardCell, CurvePoint, ProgressBoard
 from app.session.course import Course, CourseError, CourseStanding, next_of_course
 from app.session.people import Person
-from app.views.debrief.page import date_text
 from app.views.kit import theme
 from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import declared, literal, tr, translated
+from app.views.kit.text import date_text, declared, listing, literal, tr, tr_n, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -93,8 +91,7 @@ def since_words(since: datetime.timedelta) -> str:
 
 def cell_details(cell: BoardCell) -> str:
     """Say the rest of a cell: how many count, the trend, what does not count and why."""
-    many = tr("{n} attempts count", n=cell.attempts)
-    lines = [counted(cell.attempts, tr("1 attempt counts"), many)]
+    lines = [tr_n("{n} attempt counts", "{n} attempts count", cell.attempts)]
     if cell.trend is not None:
         lines.append(tr("trend {trend:+.1f} points a time", trend=cell.trend))
     lines += [tr("{n} not counted: {why}", n=n, why=why) for why, n in cell.why]
@@ -387,10 +384,14 @@ class CoursesTab(QWidget):
         self._standings, self._waiting = standings, waiting
         self.tree.clear()
         for course in courses:
-            who = ", ".join(course.groups) or tr("everybody")
+            who = listing(course.groups) or tr("everybody")
             ordered = tr(", in order") if course.ordered else ""
             held = len(waiting.get(course.id, ()))
-            waits = tr("{n} results wait for their release", n=held) if held else ""
+            waits = (
+                tr_n("{n} result waits for its release", "{n} results wait for their release", held)
+                if held
+                else ""
+            )
             top = QTreeWidgetItem([course.title, f"{who}{ordered}", "", "", waits])
             self.tree.addTopLevelItem(top)
             comes = next_of_course(standings.get(course.id, ()))
@@ -761,7 +762,7 @@ class CourseDialog(SettingsDialog):
         if unknown:
             self.groups.setFocus()
             there = (
-                tr("there are: {names}", names=", ".join(self._known))
+                tr("there are: {names}", names=listing(self._known))
                 if self._known
                 else tr("there are none yet: add students with their groups first")
             )

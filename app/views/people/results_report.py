@@ -33,9 +33,8 @@ from app.exchange.results import Results
 from app.scoring.tolerance import Band
 from app.session.board import BoardCell, CurvePoint
 from app.session.people import Person
-from app.views.debrief.page import date_text
 from app.views.debrief.report import BAND_INKS, DIM, HEIGHT, INK, LINE, MARGIN, RULE, WIDTH, font
-from app.views.kit.text import disclaimer, number, tr, translated
+from app.views.kit.text import date_text, disclaimer, listing, moment, number, tr, tr_n, translated
 
 PASSED, MEDIAN = BAND_INKS[Band.GOOD], "#8a5a00"
 _ROW: Final = 17.0
@@ -166,11 +165,11 @@ def group_report(
         counted = sum(len(some) for some in board.counted.values())
         sheet.paragraph(
             tr(
-                "{n} students, {m} exercises, {k} attempts that count: scored, comparable, by a "
-                "person, not declared void.",
-                n=len(board.students),
-                m=len(board.items),
-                k=counted,
+                "{students}, {exercises}, {attempts}: scored, comparable, by a person, not "
+                "declared void.",
+                students=tr_n("{n} student", "{n} students", len(board.students)),
+                exercises=tr_n("{n} exercise", "{n} exercises", len(board.items)),
+                attempts=tr_n("{n} attempt that counts", "{n} attempts that count", counted),
             ),
             colour=DIM,
         )
@@ -197,7 +196,7 @@ def student_report(
         board = results.board
         _heading(sheet, heading, tr("Report of a student"), now)
         if person.groups:
-            sheet.paragraph(tr("Group: {groups}", groups=", ".join(person.groups)), colour=DIM)
+            sheet.paragraph(tr("Group: {groups}", groups=listing(person.groups)), colour=DIM)
         sheet.y += 6.0
         _exercises(sheet, results, person, titles)
         for item in board.items:
@@ -229,7 +228,7 @@ def _heading(sheet: _Sheet, title: str, kind: str, now: datetime.datetime | None
     sheet.y = MARGIN + 14.0
     sheet.text(MARGIN, title, 17.0, bold=True, width=WIDTH - 2.0 * MARGIN)
     sheet.y += 17.0
-    when = f"{now or datetime.datetime.now().astimezone():%Y-%m-%d %H:%M}"
+    when = moment(now or datetime.datetime.now().astimezone())
     words = tr("{kind}, {when}, by Acus {version}", kind=kind, when=when, version=__version__)
     sheet.text(MARGIN, words, 9.5, DIM)
     sheet.y += 4.0

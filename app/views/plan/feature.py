@@ -59,6 +59,7 @@ class PlanPanel(QWidget):
         self._editor, self._viewing, self._way = editor, viewing, PlannedWay()
         self.title = _label("heading")
         self.entry, self.target, self.length = _label(), _label(), _label("dim")
+        self.length.setWordWrap(True)
         self.left_slice = _label("dim")
         self.left_slice.setWordWrap(True)
         self.place_entry = _button(tr("Place  E"), checkable=True)

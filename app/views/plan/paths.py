@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
     QLabel,
-    QPushButton,
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
@@ -33,7 +32,7 @@ from app.planning.limits import ReachLimits
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.parts import PlainLabel
+from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import literal, tr
 from app.views.plan.entry_map import EntryMap, EntryMapLayer, legend
@@ -65,9 +64,9 @@ class PathsPanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.make = QPushButton(tr("Map entries for this target"))
-        self.clear = QPushButton(tr("Clear"))
-        self.take = QPushButton(tr("Take this path"))
+        self.make = FittingButton(tr("Map entries for this target"))
+        self.clear = FittingButton(tr("Clear"))
+        self.take = FittingButton(tr("Take this path"))
         self.note = PlainLabel(self)
         self.note.setWordWrap(True)
         self.note.setProperty("role", "dim")

@@ -22,7 +22,7 @@ from app.views.exercise.scan_view import ScanView
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.steps import NextStepLine
 from app.views.kit.side_panel import SidePanel
-from app.views.kit.text import tr
+from app.views.kit.text import keys_text, tr
 from app.views.reading.layouts import (
     ATTEMPT,
     BULLSEYE,
@@ -219,14 +219,14 @@ class AttemptRoom(QObject):
         page.disclaimer.setVisible(not put_away)
         page.next_step.set_aside(put_away)
         self.rail.panel.setText(
-            tr("Put panels away ({key})", key=PANELS_KEY)
+            tr("Put panels away ({key})", key=keys_text(PANELS_KEY))
             if self.is_open
-            else tr("All panels ({key})", key=PANELS_KEY)
+            else tr("All panels ({key})", key=keys_text(PANELS_KEY))
         )
         self.rail.pictures.setVisible(on and page.scan_view.scan is not None)
         self.rail.pictures.setText(
-            tr("Live pictures ({key})", key=PICTURES_KEY)
+            tr("Live pictures ({key})", key=keys_text(PICTURES_KEY))
             if self.shows_scan
-            else tr("Control scan again ({key})", key=PICTURES_KEY)
+            else tr("Control scan again ({key})", key=keys_text(PICTURES_KEY))
         )
         page.arrange()

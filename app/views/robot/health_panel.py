@@ -26,7 +26,7 @@ from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, moment, tr
 from app.views.kit.verdict import StatusItem
 from app.views.robot.health import HealthGroup, Rates, health
 
@@ -117,7 +117,7 @@ class Trace(QWidget):
 PERIOD = 0.25
 """Words are refreshed this often [s]; curves at every poll."""
 
-TITLE_WIDTH = 134
+TITLE_WIDTH = 144
 
 
 class HealthPanel(QWidget):
@@ -184,7 +184,7 @@ class HealthPanel(QWidget):
         """Everything on the page as plain text."""
         lines = [
             tr("Acus {version}: health of the robot", version=__version__),
-            when.isoformat(timespec="seconds"),
+            moment(when),
         ]
         for group in self.groups:
             lines += ["", group.title]
@@ -284,7 +284,7 @@ class _Line(QWidget):
         self._title, self._text, self._help = PlainLabel(self), PlainLabel(self), PlainLabel(self)
         self._title.setFixedWidth(theme.px(TITLE_WIDTH))
         self._title.setAlignment(Qt.AlignmentFlag.AlignTop)
-        for label in (self._text, self._help):
+        for label in (self._title, self._text, self._help):
             label.setWordWrap(True)
         self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._help.setProperty("role", "dim")

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from app.device.commissioning.results import RoutineName
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, column, label
-from app.views.kit.text import tr
+from app.views.kit.text import date_text, tr
 from app.views.kit.verdict import Verdict, tell
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def state_of(bench: Bench, step: RoutineName) -> tuple[Verdict, str, str]:
     if entry is None:
         needed = Verdict.BAD if step in NEEDED else Verdict.IDLE
         return needed, tr("not done yet"), ""
-    when, found = entry.date[:16].replace("T", " "), entry.result.summary()
+    when, found = date_text(entry.date), entry.result.summary()
     if step in NEEDED and not bench.done(*_SAME.get(step, (step,))):
         return Verdict.BAD, tr("{when}, before it was switched on again", when=when), found
     return Verdict.GOOD, when, found

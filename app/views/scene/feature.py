@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QMenu
 
 from app.planning.needle_planes import NeedleFrame, follow, frame_of, in_plane
 from app.views.kit.roles import EVERYBODY, Role
-from app.views.kit.text import literal, tr
+from app.views.kit.text import keys_text, literal, tr
 from app.views.scene.display import Display, Section
 from app.views.scene.view import PRESETS, SceneView
 from app.views.shell.feature import Context, Feature
@@ -193,7 +193,7 @@ class SceneMenu:
     def _entries(self, menu: QMenu, rows: tuple[tuple[str, str, str], ...]) -> dict[str, QAction]:
         found = {}
         for key, text, tip in rows:
-            action = menu.addAction(f"{text}\t{key}")  # the key is the 3D view's own
+            action = menu.addAction(f"{text}\t{keys_text(key)}")  # the key is the 3D view's own
             action.setToolTip(literal(tip))
             action.triggered.connect(lambda _=False, key=key: self._scene.commands[key]())
             found[key] = action

@@ -31,7 +31,7 @@ from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, size_dialog
-from app.views.kit.text import literal, number, tr
+from app.views.kit.text import literal, number, tr, tr_n
 
 PICTURE_PX = 112
 _BUTTON_PX = 190
@@ -317,5 +317,14 @@ def _rank(series: Series) -> tuple[int, int]:
 def _heading(listing: Listing) -> str:
     usable, count = len(listing.usable), len(listing.series)
     if not usable:
-        return tr("{count} series, none of which can be used as it is", count=count)
-    return tr("{count} series, {usable} of which can be used", count=count, usable=usable)
+        return tr_n(
+            "{n} series, which cannot be used as it is",
+            "{n} series, none of which can be used as it is",
+            count,
+        )
+    return tr_n(
+        "{n} series, {usable} of which can be used",
+        "{n} series, {usable} of which can be used",
+        count,
+        usable=usable,
+    )

@@ -49,7 +49,7 @@ from app.core.log_file import crash_text, tail
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, label, size_dialog
-from app.views.kit.text import disclaimer, literal, tr
+from app.views.kit.text import disclaimer, in_english, literal, tr
 from app.views.shell.application import icon
 from app.views.shell.feature import Feature
 from app.views.shell.feature_plugins import page_of_plugin
@@ -171,9 +171,17 @@ class AboutDialog(QDialog):
         self._head.setText(tr("The libraries cannot be listed: {error}", error=error))
 
 
+def unreviewed() -> tuple[str, ...]:
+    """Return what is to be known of another language than English, in that language."""
+    if in_english():
+        return ()
+    return (tr("This language was translated, and not reviewed by native radiologists."),)
+
+
 def _sentences() -> tuple[str, ...]:
     return (
         disclaimer(),
+        *unreviewed(),
         tr("Acus is under the Apache License 2.0 (LICENSE, NOTICE)."),
         tr(
             "Qt {version} and PySide6 are used under the GNU Lesser General Public License (LGPL), "

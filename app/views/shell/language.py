@@ -8,8 +8,10 @@ from PySide6.QtCore import QCoreApplication, QEvent, QObject, QSettings, QTimer
 from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QApplication, QMenu
 
+from app.views.debrief.feature import DebriefFeature
 from app.views.kit.language import choose, chosen, code_for, languages, use_language
 from app.views.kit.text import tr
+from app.views.people.feature import PeopleFeature
 from app.views.plan.feature import PlanFeature
 from app.views.shell.collector import collect_for
 from app.views.shell.window import MainWindow
@@ -76,7 +78,7 @@ class Rebuilding(QObject):
             return
         patient, exercise = window.conductor.patient, window.conductor.exercise
         edit, path, dirty = window.editor.edit, window.editor.path, window.editor.dirty
-        page = window.pages.currentWidget() is window.start_page
+        page, debrief = window.pages.currentWidget(), window.feature(DebriefFeature)
         if not all(one.may_go() for one in window.features if not isinstance(one, PlanFeature)):
             return
         application.setQuitOnLastWindowClosed(False)
@@ -95,8 +97,12 @@ class Rebuilding(QObject):
             new.editor.take(edit.draft, edit.placement)
             if not dirty:
                 new.editor.saved(path)
-        if page:
+        if page is window.start_page:
             new.show_start()
+        elif page is window.feature(PeopleFeature).page:
+            new.feature(PeopleFeature).show()
+        else:
+            new.feature(DebriefFeature).go_on(debrief, page)
         QTimer.singleShot(0, self, lambda: _destroy(window))
 
 

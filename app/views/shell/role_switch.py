@@ -24,7 +24,7 @@ from app.views.kit.roles import (
     role_title,
     role_words,
 )
-from app.views.kit.text import literal, tr
+from app.views.kit.text import keys_text, literal, tr
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ROLE_KEY
 
@@ -143,5 +143,7 @@ class RoleSwitch(QObject):
         self.button.setText(title)
         self.button.setAccessibleName(tr("Role: {role}", role=title))
         self.button.setToolTip(
-            literal(tr("Who sits here: it decides what the window has ({key})", key=ROLE_KEY))
+            literal(
+                tr("Who sits here: it decides what the window has ({key})", key=keys_text(ROLE_KEY))
+            )
         )

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.roles import STAFF, Role
-from app.views.kit.text import disclaimer, tr
+from app.views.kit.text import disclaimer, keys_text, tr
 from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 
 _AROUND_PX = 40
@@ -172,7 +172,7 @@ def _table(group: Group) -> QGridLayout:
     title.setProperty("role", "heading")
     grid.addWidget(title, 0, 0, 1, 2)
     for number, (key, meaning) in enumerate(rows, start=1):
-        pressed, does = PlainLabel(key), PlainLabel(meaning)
+        pressed, does = PlainLabel(keys_text(key)), PlainLabel(meaning)
         pressed.setStyleSheet(f"color: {theme.ACCENT};")
         grid.addWidget(pressed, number, 0)
         grid.addWidget(does, number, 1)
