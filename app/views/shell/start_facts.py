@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject
 
 from app.core.progress import Progress
 from app.exercises.portrait import Portrait, kept_portrait
+from app.exercises.schema import Exercise
 from app.session.header import pseudonym
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
@@ -50,7 +51,7 @@ class StartFacts(QObject):
 
     def refresh(self) -> None:
         """Read what was done so far; pictures that are missing follow."""
-        exercises, folder = self._services.exercises(), self._services.sessions()
+        exercises, folder = self._exercises(), self._services.sessions()
         asked = asker(self._page.who.line.text())
         student, refusal = ACCESS.student, ACCESS.refusal
         if self._standings is not None:
@@ -83,7 +84,7 @@ class StartFacts(QObject):
 
     def show_kept(self) -> None:
         """Show the pictures that are kept already: files of some ten kilobytes."""
-        for exercise in self._services.exercises():
+        for exercise in self._exercises():
             portrait = kept_portrait(exercise) if exercise.id not in self._pictured else None
             if portrait is not None:
                 self._pictured.add(exercise.id)
@@ -97,6 +98,10 @@ class StartFacts(QObject):
         self._standings = self._picture = None
         self._may_picture = False
 
+    def _exercises(self) -> list[Exercise]:
+        """Return what the page shows: reading the library again takes as long as the rest."""
+        return [place.exercise for place in self._page.map.places.values()]
+
     def _follow(self) -> None:
         if self._page.isVisible():
             self.refresh()
@@ -106,7 +111,7 @@ class StartFacts(QObject):
         self._next_picture()
 
     def _next_picture(self) -> None:
-        missing = [one for one in self._services.exercises() if one.id not in self._pictured]
+        missing = [one for one in self._exercises() if one.id not in self._pictured]
         if self._picture is not None or not self._may_picture or not missing:
             return
         exercise, services = missing[0], self._services
