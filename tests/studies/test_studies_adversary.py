@@ -277,6 +277,7 @@ def test_a_judge_that_is_blind_to_what_it_walks_through_is_found_by_the_loop(mon
     good = JudgedPlan(100.0, 80.0, 0.0, 30.0)
     for place in ("app.compose.trial", "app.session.attempt_log"):  # nor does it see the plan
         monkeypatch.setattr(f"{place}.judged_plan_of", lambda *_: good)
+    target._ready.clear()
     blind = target.play(through_vein)
     assert blind.passed, "the judge sees nothing"
     assert "hepatic vein" in blind.fines[0]
