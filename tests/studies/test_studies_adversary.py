@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from app.commands import build
 from app.core.progress import Cancelled, Progress
+from app.planning.judged_plan import JudgedPlan
 from app.simulation.trainee import ScriptPhase
 from app.studies.adversary import attack_exercises
 from app.studies.attacks.attack import GENES, HONEST, RANGES, Attack, honest_genes
@@ -273,6 +274,10 @@ def test_a_judge_that_is_blind_to_what_it_walks_through_is_found_by_the_loop(mon
     assert not open_eyes.passed
     for place in ("app.compose.attacked", "app.compose.trial", "app.session.attempt_log"):
         monkeypatch.setattr(f"{place}.tissues_met_of", lambda *_: ())
+    good = JudgedPlan(100.0, 80.0, 0.0, 30.0)
+    for place in ("app.compose.trial", "app.session.attempt_log"):  # nor does it see the plan
+        monkeypatch.setattr(f"{place}.judged_plan_of", lambda *_: good)
+    target._ready.clear()
     blind = target.play(through_vein)
     assert blind.passed, "the judge sees nothing"
     assert "hepatic vein" in blind.fines[0]
