@@ -11949,6 +11949,14 @@ Buchstaben: Richtungen des Patienten
             <source>Any number of attempts.</source>
             <translation type="unfinished">Beliebig viele Versuche.</translation>
         </message>
+        <message>
+            <source>The one attempt is left.</source>
+            <translation type="unfinished">Der eine Versuch ist noch frei.</translation>
+        </message>
+        <message>
+            <source>The one attempt is used.</source>
+            <translation type="unfinished">Der eine Versuch ist verbraucht.</translation>
+        </message>
         <message numerus="yes">
             <source>{n} attempts are allowed.</source>
             <translation type="unfinished">
@@ -11956,12 +11964,9 @@ Buchstaben: Richtungen des Patienten
                 <numerusform>{n} Versuche sind erlaubt.</numerusform>
             </translation>
         </message>
-        <message numerus="yes">
+        <message>
             <source>{left} of {n} attempts are left.</source>
-            <translation type="unfinished">
-                <numerusform>{left} von {n} Versuch ist übrig.</numerusform>
-                <numerusform>{left} von {n} Versuchen sind übrig.</numerusform>
-            </translation>
+            <translation type="unfinished">Verbleibende Versuche: {left} von {n}.</translation>
         </message>
         <message>
             <source>Course: {title}.</source>

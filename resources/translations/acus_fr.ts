@@ -11949,6 +11949,14 @@ Lettres : directions du patient
             <source>Any number of attempts.</source>
             <translation type="unfinished">Autant d’essais que l’on veut.</translation>
         </message>
+        <message>
+            <source>The one attempt is left.</source>
+            <translation type="unfinished">Il reste l’unique essai.</translation>
+        </message>
+        <message>
+            <source>The one attempt is used.</source>
+            <translation type="unfinished">L’unique essai est utilisé.</translation>
+        </message>
         <message numerus="yes">
             <source>{n} attempts are allowed.</source>
             <translation type="unfinished">
@@ -11956,12 +11964,9 @@ Lettres : directions du patient
                 <numerusform>{n} essais sont autorisés.</numerusform>
             </translation>
         </message>
-        <message numerus="yes">
+        <message>
             <source>{left} of {n} attempts are left.</source>
-            <translation type="unfinished">
-                <numerusform>Il reste {left} essai sur {n}.</numerusform>
-                <numerusform>Il reste {left} essais sur {n}.</numerusform>
-            </translation>
+            <translation type="unfinished">Essais restants : {left} sur {n}.</translation>
         </message>
         <message>
             <source>Course: {title}.</source>

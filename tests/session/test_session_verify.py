@@ -147,7 +147,7 @@ def test_a_score_of_another_version_is_kept_said_and_not_comparable(folder: Path
     found = verify(read_recording(path))
     assert not found.confirmed
     assert found.changes == ()
-    only = "it cannot be checked: this program has the rules of versions 5 and 6 and 7"
+    only = "it cannot be checked: this program has the rules of versions 5, 6 and 7"
     assert only in found.sentences()
     assert run("session", "verify", path.stem, "--folder", str(folder))[0] == Exit.NO
     old = fresh_summary(path).conditions

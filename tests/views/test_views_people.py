@@ -217,7 +217,7 @@ def test_a_course_is_made_in_a_form_that_says_what_is_wrong(window, feature, set
     assert "Groups: no student is in A; there are none yet" in dialog.note.text()
     dialog._known = ("B", "C")
     dialog.save()
-    assert "Groups: no student is in A; there are: B, C" in dialog.note.text()
+    assert "Groups: no student is in A; there are: B and C" in dialog.note.text()
     assert dialog.focusWidget() is dialog.groups
     dialog._known = ("A", "B")
     dialog.add.click()

@@ -185,12 +185,10 @@ class AttemptsLeft:
             said = tr_n("{n} attempt is allowed.", "{n} attempts are allowed.", self.allowed)
         else:
             left = max(0, self.allowed - self.used)
-            said = tr_n(
-                "{left} of {n} attempt is left.",
-                "{left} of {n} attempts are left.",
-                self.allowed,
-                left=left,
-            )
+            if self.allowed == 1:
+                said = tr("The one attempt is left.") if left else tr("The one attempt is used.")
+            else:
+                said = tr("{left} of {n} attempts are left.", left=left, n=self.allowed)
         if self.course:
             said += " " + tr("Course: {title}.", title=self.course)
         if self.refusal:

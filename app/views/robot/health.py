@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import datetime
 from math import degrees, isfinite
 
 from app.core import state_vector as sv
@@ -18,7 +19,7 @@ from app.views.exercise.felt import force_limit, origin_help, origin_word
 from app.views.exercise.readings import fault_text
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import LoopFigures, encoder_item, loop_item
-from app.views.kit.text import date_text, tr
+from app.views.kit.text import day, tr
 from app.views.kit.verdict import StatusItem, Verdict
 
 NONE = "–"
@@ -375,7 +376,11 @@ def scale_item(run: ExerciseRun) -> StatusItem:
     if done is None or done.force_factor is None:
         return StatusItem(Verdict.WARNING, tr("Force scale"), tr("never measured"), help_text)
     verified = abs(done.force_factor - 1.0) <= SCALE_TOLERANCE and done.profile == run.profile.name
-    text = tr("{factor:.3f} on {date}", factor=done.force_factor, date=date_text(done.force_date))
+    text = tr(
+        "{factor:.3f} on {date}",
+        factor=done.force_factor,
+        date=day(datetime.fromisoformat(done.force_date)),
+    )
     return StatusItem(
         Verdict.GOOD if verified else Verdict.WARNING, tr("Force scale"), text, help_text
     )
