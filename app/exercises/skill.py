@@ -24,7 +24,7 @@ KEPT_CLEAR: Final = "forbidden_region"
 """Law by which a robot keeps the needle out of a region."""
 
 
-class Skill(StrEnum):
+class Practised(StrEnum):
     """What an exercise practises most, in the order in which the map shows them."""
 
     HAND = "hand"
@@ -34,20 +34,20 @@ class Skill(StrEnum):
     MACHINE = "machine"
 
 
-def skill_of(exercise: Exercise) -> Skill:
+def skill_of(exercise: Exercise) -> Practised:
     """Return the skill that an exercise practises most."""
     if exercise.touch is not None or _kind(exercise.device) != DEFAULT_KIND:
-        return Skill.MACHINE
+        return Practised.MACHINE
     if isinstance(exercise.plan, OwnPlan) or exercise.guidance_mode is GuidanceMode.CONTROL_CT:
-        return Skill.PLAN
+        return Practised.PLAN
     if KEPT_CLEAR in exercise.laws or any(part.risks for part in exercise.structures):
-        return Skill.CLEARANCE
-    return Skill.BREATH if "breathing" in exercise.effects else Skill.HAND
+        return Practised.CLEARANCE
+    return Practised.BREATH if "breathing" in exercise.effects else Practised.HAND
 
 
 def is_lesson(exercise: Exercise) -> bool:
     """Return whether an exercise is one of the lessons; those of research machines are none."""
-    return skill_of(exercise) is not Skill.MACHINE
+    return skill_of(exercise) is not Practised.MACHINE
 
 
 @lru_cache(maxsize=64)

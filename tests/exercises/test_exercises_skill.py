@@ -2,14 +2,14 @@
 
 from app.exercises.library import library
 from app.exercises.schema import Exercise
-from app.exercises.skill import Skill, is_lesson, skill_of
+from app.exercises.skill import Practised, is_lesson, skill_of
 
 PLACES = {
-    Skill.HAND: {"first-insertion", "thick-tissue", "with-less-help", "against-repulsion"},
-    Skill.BREATH: {"breathing-liver", "kidney", "hold-the-breath", "lung-between-ribs"},
-    Skill.CLEARANCE: {"past-the-vessel", "beside-the-vein"},
-    Skill.PLAN: {"plan-it-yourself", "scans-only"},
-    Skill.MACHINE: {"tensegrity-liver", "laparoscopic-tool"},
+    Practised.HAND: {"first-insertion", "thick-tissue", "with-less-help", "against-repulsion"},
+    Practised.BREATH: {"breathing-liver", "kidney", "hold-the-breath", "lung-between-ribs"},
+    Practised.CLEARANCE: {"past-the-vessel", "beside-the-vein"},
+    Practised.PLAN: {"plan-it-yourself", "scans-only"},
+    Practised.MACHINE: {"tensegrity-liver", "laparoscopic-tool"},
 }
 
 

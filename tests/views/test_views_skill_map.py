@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 
 from app.exercises.library import library
 from app.exercises.portrait import kept_portrait
-from app.exercises.skill import Skill, skill_of
+from app.exercises.skill import Practised, skill_of
 from app.session.board import Standing
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
@@ -23,7 +23,7 @@ from app.views.shell.start_facts import asker
 from app.views.shell.start_page import StartPage
 
 EXERCISES = tuple(library())
-LESSONS = [one for one in EXERCISES if skill_of(one) is not Skill.MACHINE]
+LESSONS = [one for one in EXERCISES if skill_of(one) is not Practised.MACHINE]
 
 
 @pytest.fixture
@@ -54,8 +54,8 @@ def heard(place):
 def test_each_skill_is_a_line_from_left_to_right_in_the_order_of_its_levels(page):
     places = page[0].map.places
     assert set(places) == {one.id for one in EXERCISES}
-    for skill in Skill:
-        if skill is Skill.MACHINE:
+    for skill in Practised:
+        if skill is Practised.MACHINE:
             continue
         line = [places[one.id] for one in EXERCISES if skill_of(one) is skill]
         assert len({place.y() for place in line}) == 1, skill

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QSizePolicy, QWidget
 
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
-from app.exercises.skill import Skill, skill_of
+from app.exercises.skill import Practised, skill_of
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import declared, tr
@@ -36,22 +36,22 @@ MOST_COLUMNS: Final = 6
 GAP: Final = 10
 
 
-def skill_title(skill: Skill) -> str:
+def skill_title(skill: Practised) -> str:
     """Name a skill for people."""
     return {
-        Skill.HAND: tr("Hand and tissue"),
-        Skill.BREATH: tr("With the breath"),
-        Skill.CLEARANCE: tr("Past what must not be met"),
-        Skill.PLAN: tr("Plan and control"),
-        Skill.MACHINE: tr("Research machines"),
+        Practised.HAND: tr("Hand and tissue"),
+        Practised.BREATH: tr("With the breath"),
+        Practised.CLEARANCE: tr("Past what must not be met"),
+        Practised.PLAN: tr("Plan and control"),
+        Practised.MACHINE: tr("Research machines"),
     }[skill]
 
 
 @dataclass(slots=True)
-class _Group:
+class _SkillGroup:
     """A skill with its places, and where they stand: row and first column, or on the shelf."""
 
-    skill: Skill
+    skill: Practised
     heading: PlainLabel
     places: list[SkillPlace] = field(default_factory=list)
 
@@ -61,7 +61,7 @@ class _Group:
 
 
 @dataclass(frozen=True, slots=True)
-class _Grid:
+class _SkillGrid:
     """How places stand: columns of lessons, sizes [px], whether the shelf stands beside them."""
 
     columns: int
@@ -85,7 +85,7 @@ class SkillMap(QScrollArea):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.places: dict[str, SkillPlace] = {}
-        self._groups: list[_Group] = []
+        self._groups: list[_SkillGroup] = []
         self._current: SkillPlace | None = None
         self._field = _Field(self)
         self.setWidget(self._field)
@@ -108,7 +108,7 @@ class SkillMap(QScrollArea):
         before, self.places = self.places, {}
         for group in self._groups:
             group.heading.deleteLater()
-        groups = {skill: _Group(skill, self._heading(skill)) for skill in Skill}
+        groups = {skill: _SkillGroup(skill, self._heading(skill)) for skill in Practised}
         for exercise in exercises:
             place = SkillPlace(exercise, self._field)
             known = before.get(exercise.id)
@@ -209,7 +209,7 @@ class SkillMap(QScrollArea):
         if event.type() is QEvent.Type.StyleChange:
             self._arrange()
 
-    def _heading(self, skill: Skill) -> PlainLabel:
+    def _heading(self, skill: Practised) -> PlainLabel:
         made = PlainLabel(skill_title(skill), self._field)
         made.setProperty("role", "heading")
         made.show()
@@ -217,7 +217,7 @@ class SkillMap(QScrollArea):
 
     def _packed(
         self, columns: int, shelf: bool, every: bool = False
-    ) -> list[list[tuple[_Group, int, int]]]:
+    ) -> list[list[tuple[_SkillGroup, int, int]]]:
         """Return rows of parts of groups: group, its first place, its first column.
 
         Args:
@@ -225,15 +225,15 @@ class SkillMap(QScrollArea):
             shelf: whether research machines stand beside them.
             every: count places that a search hides as well.
         """
-        rows: list[list[tuple[_Group, int, int]]] = []
+        rows: list[list[tuple[_SkillGroup, int, int]]] = []
         free: list[int] = []
         for group in self._groups:
-            if group.skill is Skill.MACHINE and shelf:
+            if group.skill is Practised.MACHINE and shelf:
                 continue
             count = len(group.places if every else group.shown)
             for first in range(0, count, columns):
                 part = min(columns, count - first)
-                split = count > columns or group.skill is Skill.MACHINE
+                split = count > columns or group.skill is Practised.MACHINE
                 row = next((n for n, room in enumerate(free) if room >= part and not split), None)
                 if row is None:
                     rows.append([])
@@ -243,15 +243,15 @@ class SkillMap(QScrollArea):
                 free[row] = 0 if split else free[row] - part
         return rows
 
-    def _grid(self, room: int) -> _Grid:
+    def _grid(self, room: int) -> _SkillGrid:
         """Return the division of a width [px] that has the largest faces, with fewest columns.
 
         All places count: what a search leaves keeps its size.
         """
         height = self.height()
         heading, fixed = self._head(), SkillPlace.above() + SkillPlace.below()
-        machines = any(g.places for g in self._groups if g.skill is Skill.MACHINE)
-        best: tuple[int, _Grid] | None = None
+        machines = any(g.places for g in self._groups if g.skill is Practised.MACHINE)
+        best: tuple[int, _SkillGrid] | None = None
         for columns in range(2, MOST_COLUMNS + 1):
             for beside in (True, False):
                 shelf = beside and machines
@@ -262,8 +262,8 @@ class SkillMap(QScrollArea):
                 tall = height // rows - heading - fixed
                 face = min(width - 4 * SkillPlace.above(), tall, FACES[1])
                 if best is None or face > best[0]:
-                    best = face, _Grid(columns, width, max(theme.px(FACES[0]), face), shelf)
-        return best[1] if best else _Grid(2, room // 2, theme.px(FACES[0]), False)
+                    best = face, _SkillGrid(columns, width, max(theme.px(FACES[0]), face), shelf)
+        return best[1] if best else _SkillGrid(2, room // 2, theme.px(FACES[0]), False)
 
     def _head(self) -> int:
         return self._field.fontMetrics().height() + theme.SPACING
@@ -292,22 +292,22 @@ class SkillMap(QScrollArea):
                 for n, place in enumerate(some):
                     place.setGeometry(left + n * grid.width, top + head, grid.width, tall)
                     place.set_disc(grid.face)
-                if group.skill is Skill.MACHINE:
+                if group.skill is Practised.MACHINE:
                     row_box = QRect(0, top, len(some) * grid.width, head + tall)
                     shelf = row_box if shelf is None else shelf.united(row_box)
                 else:
                     lines += pairwise(some)
             top += head + tall
-        if grid.beside and any(g.shown for g in self._groups if g.skill is Skill.MACHINE):
+        if grid.beside and any(g.shown for g in self._groups if g.skill is Practised.MACHINE):
             shelf = self._shelve(grid, room, head, tall)
             top = max(top, shelf.bottom() + 1)
         self._field.draw(lines, shelf)
         self._field.setFixedSize(room, max(top, 1))
         return top
 
-    def _shelve(self, grid: _Grid, room: int, head: int, tall: int) -> QRect:
+    def _shelve(self, grid: _SkillGrid, room: int, head: int, tall: int) -> QRect:
         """Stand the research machines one below the other, at the right of the lessons."""
-        group = next(one for one in self._groups if one.skill is Skill.MACHINE)
+        group = next(one for one in self._groups if one.skill is Practised.MACHINE)
         left = room - grid.width
         _write(group, QRect(left + GAP, 0, grid.width - 2 * GAP, head))
         for n, place in enumerate(group.shown):
@@ -328,7 +328,7 @@ def _nearest(here: SkillPlace, others: Sequence[SkillPlace], down: int) -> Skill
     return min(costs, key=lambda pair: pair[0])[1] if costs else None
 
 
-def _write(group: _Group, box: QRect) -> None:
+def _write(group: _SkillGroup, box: QRect) -> None:
     """Write a skill's name into a box; a tip has all of it where that is too narrow."""
     title, heading = skill_title(group.skill), group.heading
     side = Qt.TextElideMode.ElideRight

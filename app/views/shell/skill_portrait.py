@@ -17,7 +17,7 @@ from app.exercises.guidance import GuidanceMode
 from app.exercises.parts import OwnPlan
 from app.exercises.portrait import ACROSS, Portrait
 from app.exercises.schema import Exercise
-from app.exercises.skill import Skill, skill_of
+from app.exercises.skill import Practised, skill_of
 from app.views.exercise.briefing import paint_portrait
 from app.views.kit import theme
 
@@ -35,9 +35,9 @@ def plane_of(exercise: Exercise) -> str:
     if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
         return "sagittal"
     match skill_of(exercise):
-        case Skill.BREATH:
+        case Practised.BREATH:
             return "coronal"
-        case Skill.CLEARANCE:
+        case Practised.CLEARANCE:
             return "sagittal"
         case _:
             return "axial"
@@ -126,12 +126,12 @@ def _sign(
     skill = skill_of(exercise)
     if exercise.touch is not None:
         _tool(painter, entry, target, out, side, unit)
-    elif skill is Skill.MACHINE:
+    elif skill is Practised.MACHINE:
         _holder(painter, entry, out, side, unit)
-    elif skill is Skill.BREATH:
+    elif skill is Practised.BREATH:
         beside = -15.0 if along.x() > 3.0 * unit else 15.0
         _breath(painter, target + QPointF(beside * unit, 0.0), unit, exercise.holds_breath)
-    elif skill is Skill.CLEARANCE:
+    elif skill is Practised.CLEARANCE:
         for way in (-1.0, 1.0):
             off = side * (way * 7.0 * unit)
             _line(painter, [target + off, target + along * 0.6 + off], theme.IMAGE_WARNING)
@@ -139,7 +139,7 @@ def _sign(
         for way in (-1.0, 1.0):
             foot = target + along * 0.45 + side * (way * 4.0 * unit)
             _arrow(painter, foot, side * way, 15.0 * unit, unit)
-    elif skill is Skill.HAND and exercise.laws:
+    elif skill is Practised.HAND and exercise.laws:
         shares = (1.0, 0.55, 0.2) if exercise.fading is not None else (exercise.assistance,)
         for share in shares:
             _funnel(painter, target, entry, side * (13.0 * unit * share), share)
