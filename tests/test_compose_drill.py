@@ -8,8 +8,8 @@ import pytest
 from app.compose.cameras import AttachedCameras
 from app.compose.trainer import (
     TrainerSetup,
-    _beginnings,
     _context,
+    beginnings_of,
     build_loop,
     device_of,
     replay_recording,
@@ -54,7 +54,7 @@ def played(folder: Path):
     context = _context(setup, profile, AttachedCameras((), load_rig(drill.rig), {}), None)
     trainer = Trainer(
         loop, None, placed, drill, context, clock, measure,
-        start=Start.SIMULATED, beginnings=_beginnings(setup, profile),
+        start=Start.SIMULATED, beginnings=beginnings_of(setup, profile),
     )  # fmt: skip
     loop.open()
     trainer.heartbeat()

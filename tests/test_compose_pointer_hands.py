@@ -85,7 +85,7 @@ def bent_beside_a_moved_target(student: Student) -> tuple[Snapshot, NeedleLine]:
     target = placed.p_target + np.array([2e-3, 1e-3, -4e-3])
     away = offset(tip, axis, placed, target)
     moved = replace(snapshot, pose=pose, p_target=target, offset=away)
-    view = needle_line(moved, student.rig.profile.needle_length, 5.0)
+    view = needle_line(moved)
     assert view is not None
     return moved, view
 
@@ -98,7 +98,9 @@ def test_they_see_the_dot_that_the_pad_draws_and_nothing_else_of_the_needle(
     sight = eyes_of(student).read(moved)
     assert sight is not None
     assert sight.dot == pytest.approx(view.dot(scene), abs=0.5 / PAD_PX + 1e-12)
-    tip = view.place(scene, view.offset.across)
+    frame, across = view.frame(scene), view.offset.across
+    beside = np.array([across @ frame.right, across @ frame.up]) / scene.scale.length
+    tip = scene.scale.place(beside)
     assert np.hypot(*(tip - sight.dot)) > 5.0 / PAD_PX, "the tip is elsewhere, and not seen"
     assert {one.name for one in fields(Sight)} == {"time", "dot", "remaining", "order", "rests"}
     assert sight.remaining == pytest.approx(view.offset.remaining / MILLIMETRE, abs=0.05)

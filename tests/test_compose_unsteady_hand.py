@@ -262,8 +262,8 @@ def test_orders_fade_with_the_level_and_from_the_third_on_the_ct_leads(
 
 def test_each_run_of_the_window_begins_elsewhere_and_one_with_a_seed_alike() -> None:
     exercise = load_exercise("first-insertion")
-    setup = TrainerSetup(exercise, placed_plan_of(exercise), seed=1)
     profile = device_of(exercise)
+    setup = TrainerSetup(exercise, placed_plan_of(exercise, profile), seed=1)
     first = [
         beginnings_of(replace(setup, hand_seed=seed), profile).next(setup.placed)
         for seed in (None, None, 7, 8)

@@ -306,9 +306,9 @@ def trial(
         ),
     ] = "hand",
 ) -> Answer:
-    """Try an exercise: what scripts score, five skills or two hands at the window (instructor).
+    """Try an exercise: what scripts of five skills score (instructor).
 
-    Nothing is recorded.
+    Nothing is recorded. `--script window` tries two hands at the window instead.
     """
     from app.commands.calibrate_parts import with_progress
     from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, skill_outcomes

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from app.session.drill_choice import exercise_in
 from app.session.recording import open_recording
 from app.session.review import correction, review, side_force
 
@@ -55,14 +56,15 @@ def test_a_turn_that_no_camera_vouches_for_is_none():
 
 def test_the_force_is_that_of_the_attempts_own_tissue_and_needle():
     recording = open_recording(MACHINES / "icube-fixture-tissue.mcap")
-    force = side_force(recording)
+    force = side_force(recording, exercise_in(recording))
     assert force(0.0) == 0.0
     depths = [0.01, 0.02, 0.04, 0.06, 0.09]
     assert np.all(np.diff([force(depth) for depth in depths]) > 0.0)
     softer = json.loads(recording.attachments["exercise.json"])
     softer["effects"]["lateral_tissue"]["parameters"] = {"stiffness_scale": 0.5}
     attachments = dict(recording.attachments) | {"exercise.json": json.dumps(softer).encode()}
-    half = side_force(SimpleNamespace(attachments=attachments))
+    other = SimpleNamespace(attachments=attachments)
+    half = side_force(other, exercise_in(other))
     assert 0.4 < half(0.06) / force(0.06) < 0.9  # the needle bends less in softer tissue
 
 
@@ -72,8 +74,10 @@ def test_without_tissue_or_with_another_versions_exercise_nothing_is_said_of_for
     said["effects"].pop("lateral_tissue", None)
     for text in (json.dumps(said).encode(), b"{}", b"[]", b"no json"):
         attachments = dict(recording.attachments) | {"exercise.json": text}
-        assert side_force(SimpleNamespace(attachments=attachments)) is None
-    assert side_force(SimpleNamespace(attachments={})) is None
+        other = SimpleNamespace(attachments=attachments)
+        assert side_force(other, exercise_in(other)) is None
+    empty = SimpleNamespace(attachments={})
+    assert side_force(empty, exercise_in(empty)) is None
 
 
 def test_every_record_of_the_machines_is_reviewed_with_it():

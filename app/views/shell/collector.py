@@ -29,7 +29,7 @@ _YOUNG, _ALL = 1, 2
 
 
 class Collector(QObject):
-    """Takes over the collection from Python's own count of allocations, for the rest of the program."""
+    """Takes over the collection from Python's own count of allocations for good."""
 
     def __init__(self, busy: Callable[[], bool], parent: QObject | None = None) -> None:
         """Collect for a window.
