@@ -78,6 +78,8 @@ def texts(window: QWidget, health: bool = True) -> dict[str, list[str]]:
         shown = window.workspace
         pages += [
             shown.status,
+            shown.rail._health,
+            shown.rail._busy,
             window.feature(RobotFeature).panel,
             window.feature(AccuracyFeature).panel,  # of the time that a tick takes just now
             shown.tracker_panel,

@@ -271,12 +271,12 @@ class AttemptRail(QWidget):
 
         `has_scene`: whether there is a 3D view to be seen.
         """
-        if busy:
-            self._busy.setText(
-                tr("This computer is busy: the 3D view stands still.")
-                if has_scene
-                else tr("This computer is busy: pictures come less often.")
-            )
+        words = ""
+        if busy and has_scene:
+            words = tr("This computer is busy: the 3D view stands still.")
+        elif busy:
+            words = tr("This computer is busy: pictures come less often.")
+        self._busy.setText(words)
         self._busy.setVisible(busy)
 
     def set_drill(self, words: str) -> None:
