@@ -15,7 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from app.core.messages import listed, sentence
+from app.core.messages import counted, listed, sentence
 from app.imaging import stack
 from app.imaging.errors import FileDamagedError
 from app.imaging.filling import filled
@@ -127,11 +127,7 @@ def _namesakes(headers: Headers) -> tuple[str, ...]:
 def _words(count: int) -> tuple[str, ...]:
     if not count:
         return ()
-    return (
-        sentence("1 file is a copy and left out")
-        if count == 1
-        else sentence("{count} files are copies and left out", count=count),
-    )
+    return (counted("{n} file is a copy and left out", "{n} files are copies and left out", count),)
 
 
 # --- copies

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from app.core.messages import sentence, sentence_of
+from app.core.messages import counted, sentence, sentence_of
 from app.session.backup_file import ArchiveError
 from app.session.errors import PeopleError
 from app.session.people import OF_PERSON, VERSION, People, tables
@@ -144,7 +144,18 @@ def untaken(of: PeopleRows, left: PeopleRows, whose: str) -> list[str]:
 
 def count_words(count: int, word: str, whose: str) -> str:
     """Return "1 comment of the backup", or "2 comments of the backup"."""
-    return f"{count} {word}{'' if count == 1 else 's'} {whose}"
+    return {
+        "admission": counted("{n} admission {whose}", "{n} admissions {whose}", count, whose=whose),
+        "attempt": counted("{n} attempt {whose}", "{n} attempts {whose}", count, whose=whose),
+        "comment": counted("{n} comment {whose}", "{n} comments {whose}", count, whose=whose),
+        "membership": counted(
+            "{n} membership {whose}", "{n} memberships {whose}", count, whose=whose
+        ),
+        "name": counted("{n} name {whose}", "{n} names {whose}", count, whose=whose),
+        "release": counted("{n} release {whose}", "{n} releases {whose}", count, whose=whose),
+        "student": counted("{n} student {whose}", "{n} students {whose}", count, whose=whose),
+        "void mark": counted("{n} void mark {whose}", "{n} void marks {whose}", count, whose=whose),
+    }[word]
 
 
 def write_rows(rows: PeopleRows, path: Path) -> None:

@@ -243,17 +243,17 @@ def _people(at: _Restoring, there: PeopleRows, replace_people: bool) -> None:
     courses = [name for name in at.manifest.files if name.startswith("people/courses/")]
     if known and not replace_people:
         at.done = replace(at.done, people="kept")
-        at.say(*untaken(there, here, "of the backup"))
+        at.say(*untaken(there, here, sentence("of the backup")))
         keys = here.ids("persons")
         other = sum(listed.get(key) != name for key, name in names.items() if key in keys)
-        at.say(count_words(other, "name", "of the backup") if other else "")
+        at.say(count_words(other, "name", sentence("of the backup")) if other else "")
         for name in courses:
             path = folder / name.removeprefix("people/")
             if not path.exists() or file_digest(path) != at.manifest.files[name]:
-                at.say(f"the course {path.stem} of the backup")
+                at.say(sentence("the course {course} of the backup", course=path.stem))
         return
     at.done = replace(at.done, people="restored")
-    at.say(*untaken(here, taken, "that were here"))
+    at.say(*untaken(here, taken, sentence("that were here")))
     stage = at.stages[folder]
     write_rows(taken, stage / "new" / PEOPLE)
     at.steps.append(move_database(stage / "new" / PEOPLE, folder / PEOPLE))
@@ -306,9 +306,13 @@ def _key(at: _Restoring, key: StationKey | None) -> None:
         mine = here.station if here is not None else ""
         if at.manifest.station and at.manifest.station != mine and at.done.records:
             at.say(
-                f"the signatures of {count_words(at.done.records, 'attempt', 'restored')}: another "
-                f"station ({at.manifest.station[:16]}) made them, and they count nowhere here "
-                "until the instructor admits each (`acus people remark ID --admit REASON`)"
+                sentence(
+                    "the signatures of {attempts}: another station ({station}) made them, and they "
+                    "count nowhere here until the instructor admits each (`acus people remark ID "
+                    "--admit REASON`)",
+                    attempts=count_words(at.done.records, "attempt", sentence("restored")),
+                    station=at.manifest.station[:16],
+                )
             )
         return
     if here == key:

@@ -2660,14 +2660,6 @@
             <translation type="unfinished">verschiedene Bilder mit gleicher SOPInstanceUID: {doubled}</translation>
         </message>
         <message>
-            <source>1 file is a copy and left out</source>
-            <translation type="unfinished">1 Datei ist eine Kopie und wird weggelassen</translation>
-        </message>
-        <message>
-            <source>{count} files are copies and left out</source>
-            <translation type="unfinished">{count} Dateien sind Kopien und werden weggelassen</translation>
-        </message>
-        <message>
             <source>there is no body in this CT, so there is no skin</source>
             <translation type="unfinished">in diesem CT gibt es keinen Körper und daher keine Haut</translation>
         </message>
@@ -6180,8 +6172,28 @@
             <translation type="unfinished">{source} lässt sich nicht wiederherstellen: {reason} ({error_filename})</translation>
         </message>
         <message>
+            <source>of the backup</source>
+            <translation type="unfinished">der Sicherung</translation>
+        </message>
+        <message>
+            <source>the course {course} of the backup</source>
+            <translation type="unfinished">der Kurs {course} der Sicherung</translation>
+        </message>
+        <message>
+            <source>that were here</source>
+            <translation type="unfinished">die hier waren</translation>
+        </message>
+        <message>
             <source>the names in {at_source} are damaged; nothing was changed</source>
             <translation type="unfinished">die Namen in {at_source} sind beschädigt; es wurde nichts geändert</translation>
+        </message>
+        <message>
+            <source>the signatures of {attempts}: another station ({station}) made them, and they count nowhere here until the instructor admits each (`acus people remark ID --admit REASON`)</source>
+            <translation type="unfinished">die Signaturen von {attempts}: Eine andere Station ({station}) hat sie gemacht, und sie gelten hier nirgends, bis der Kursleiter jeden zulässt (`acus people remark ID --admit REASON`)</translation>
+        </message>
+        <message>
+            <source>restored</source>
+            <translation type="unfinished">wiederhergestellt</translation>
         </message>
         <message>
             <source>altered after it was signed: {check}; it has no points</source>
@@ -18260,6 +18272,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} admissions {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Zulassung {whose}</numerusform>
+                <numerusform>{n} Zulassungen {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch</numerusform>
@@ -18288,6 +18307,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch {whose}</numerusform>
+                <numerusform>{n} Versuchen {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} comments {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Kommentar {whose}</numerusform>
+                <numerusform>{n} Kommentare {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} contours that are in the file twice counted once</source>
             <translation type="unfinished">
                 <numerusform>{n} Kontur, die doppelt in der Datei steht, einmal gezählt</numerusform>
@@ -18299,6 +18332,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Übung</numerusform>
                 <numerusform>{n} Übungen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files are copies and left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} Datei ist eine Kopie und wird ausgelassen</numerusform>
+                <numerusform>{n} Dateien sind Kopien und werden ausgelassen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18316,10 +18356,31 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} memberships {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Mitgliedschaft {whose}</numerusform>
+                <numerusform>{n} Mitgliedschaften {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} names {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Name {whose}</numerusform>
+                <numerusform>{n} Namen {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
                 <numerusform>{n} Region {reason} ausgelassen: Die Datei sagt nicht, was sie ist</numerusform>
                 <numerusform>{n} Regionen {reason} ausgelassen: Die Datei sagt nicht, was sie sind</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} releases {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Freigabe {whose}</numerusform>
+                <numerusform>{n} Freigaben {whose}</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18341,6 +18402,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer</numerusform>
                 <numerusform>{n} Teilnehmer</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} students {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Teilnehmer {whose}</numerusform>
+                <numerusform>{n} Teilnehmer {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} void marks {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Ungültig-Vermerk {whose}</numerusform>
+                <numerusform>{n} Ungültig-Vermerke {whose}</numerusform>
             </translation>
         </message>
         <message numerus="yes">

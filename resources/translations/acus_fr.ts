@@ -2660,14 +2660,6 @@
             <translation type="unfinished">images différentes partageant un SOPInstanceUID : {doubled}</translation>
         </message>
         <message>
-            <source>1 file is a copy and left out</source>
-            <translation type="unfinished">1 fichier est une copie et n’est pas pris</translation>
-        </message>
-        <message>
-            <source>{count} files are copies and left out</source>
-            <translation type="unfinished">{count} fichiers sont des copies et ne sont pas pris</translation>
-        </message>
-        <message>
             <source>there is no body in this CT, so there is no skin</source>
             <translation type="unfinished">il n’y a pas de corps dans ce CT, donc pas de peau</translation>
         </message>
@@ -6180,8 +6172,28 @@
             <translation type="unfinished">impossible de restaurer {source} : {reason} ({error_filename})</translation>
         </message>
         <message>
+            <source>of the backup</source>
+            <translation type="unfinished">de la sauvegarde</translation>
+        </message>
+        <message>
+            <source>the course {course} of the backup</source>
+            <translation type="unfinished">le cours {course} de la sauvegarde</translation>
+        </message>
+        <message>
+            <source>that were here</source>
+            <translation type="unfinished">qui étaient ici</translation>
+        </message>
+        <message>
             <source>the names in {at_source} are damaged; nothing was changed</source>
             <translation type="unfinished">les noms dans {at_source} sont endommagés ; rien n’a été modifié</translation>
+        </message>
+        <message>
+            <source>the signatures of {attempts}: another station ({station}) made them, and they count nowhere here until the instructor admits each (`acus people remark ID --admit REASON`)</source>
+            <translation type="unfinished">les signatures de {attempts} : un autre poste ({station}) les a faites, et elles ne valent rien ici tant que le formateur n’admet pas chacun (`acus people remark ID --admit REASON`)</translation>
+        </message>
+        <message>
+            <source>restored</source>
+            <translation type="unfinished">restaurés</translation>
         </message>
         <message>
             <source>altered after it was signed: {check}; it has no points</source>
@@ -18260,6 +18272,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} admissions {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} admission {whose}</numerusform>
+                <numerusform>{n} admissions {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts</source>
             <translation type="unfinished">
                 <numerusform>{n} essai</numerusform>
@@ -18288,6 +18307,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai {whose}</numerusform>
+                <numerusform>{n} essais {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} comments {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} commentaire {whose}</numerusform>
+                <numerusform>{n} commentaires {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} contours that are in the file twice counted once</source>
             <translation type="unfinished">
                 <numerusform>{n} contour présent deux fois dans le fichier, compté une fois</numerusform>
@@ -18299,6 +18332,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} exercice</numerusform>
                 <numerusform>{n} exercices</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files are copies and left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} fichier est une copie et est écarté</numerusform>
+                <numerusform>{n} fichiers sont des copies et sont écartés</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18316,10 +18356,31 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} memberships {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} appartenance {whose}</numerusform>
+                <numerusform>{n} appartenances {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} names {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} nom {whose}</numerusform>
+                <numerusform>{n} noms {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
                 <numerusform>{n} région {reason} écartée : le fichier ne dit pas ce qu’elle est</numerusform>
                 <numerusform>{n} régions {reason} écartées : le fichier ne dit pas ce qu’elles sont</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} releases {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} publication {whose}</numerusform>
+                <numerusform>{n} publications {whose}</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18341,6 +18402,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} étudiant</numerusform>
                 <numerusform>{n} étudiants</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} students {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} étudiant {whose}</numerusform>
+                <numerusform>{n} étudiants {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} void marks {whose}</source>
+            <translation type="unfinished">
+                <numerusform>{n} mention de nullité {whose}</numerusform>
+                <numerusform>{n} mentions de nullité {whose}</numerusform>
             </translation>
         </message>
         <message numerus="yes">

@@ -201,7 +201,7 @@ def test_pictures_without_a_board_are_named(wizard, job, tmp_path: Path, settle)
         cv2.imwrite(str(tmp_path / name), np.full((120, 160, 3), 90, np.uint8))
     wizard.capture_page.begin_folder(tmp_path)
     assert settle(lambda: not wizard.capture_page.running)
-    assert "not used: left01.png, right01.png" in wizard.capture_page.state.text()
+    assert "not used: left01.png and right01.png" in wizard.capture_page.state.text()
     assert job.pairs == 0
 
 

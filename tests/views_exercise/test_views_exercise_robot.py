@@ -158,7 +158,7 @@ def test_a_guard_that_acts_says_how(qt):
     acting = energy_figures(snapshot(slots=ENERGY | {"guard_scale": 0.4, "guard_damping": 0.01}))
     verdict, words = guard_words(acting)
     assert verdict is Verdict.WARNING
-    assert words == "guard acts: force at 40 %, damping added"
+    assert words == "guard acts: force at 40 % and damping added"
     empty = energy_figures(snapshot(slots=ENERGY | {"energy_tank": 0.001}))
     assert guard_words(empty) == (Verdict.WARNING, "tank nearly empty")
 
