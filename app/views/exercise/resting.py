@@ -31,13 +31,18 @@ SETTLES_S: Final = 0.5
 """After a rest nothing is shown until a picture has told the depth, for this long at most [s]."""
 
 
-def patience(seen: bool, state: State, breathes: bool) -> float | None:
+UNMEASURED: Final = 3.0
+"""So many times as long before an attempt whose needle no picture has shown yet: it may come."""
+
+
+def patience(seen: bool, state: State, breathes: bool, measured: bool = True) -> float | None:
     """Return how long nobody must have wanted robot and cameras until they rest [s].
 
     Args:
         seen: whether the views of the exercise may be seen.
         state: of the attempt.
         breathes: whether the patient breathes: who watches that moves nothing.
+        measured: whether the pictures tell the depth.
 
     Returns:
         None where they never do: an attempt is prepared or runs, or there is something to watch.
@@ -48,7 +53,9 @@ def patience(seen: bool, state: State, breathes: bool) -> float | None:
         return UNSEEN_S
     if state in (State.ENDED, State.ABORTED):
         return ENDED_S
-    return None if breathes else STILL_S
+    if breathes:
+        return None
+    return STILL_S if measured else UNMEASURED * STILL_S
 
 
 class Rester(QObject):
@@ -112,7 +119,8 @@ class Rester(QObject):
             self._settles, self._woke = False, now
         if now - self._woke < SETTLES_S and not snapshot.pose.measured:
             return snapshot.state not in RUNNING
-        self._let_rest(resting, patience(self._saw, snapshot.state, self._breathes))
+        measured = snapshot.pose.measured
+        self._let_rest(resting, patience(self._saw, snapshot.state, self._breathes, measured))
         return False
 
     def _let_rest(self, resting: Resting, due: float | None) -> None:
