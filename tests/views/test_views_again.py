@@ -1,5 +1,7 @@
 """Between two attempts and two people: an attempt begins as the first one of its exercise does."""
 
+from dataclasses import replace
+from pathlib import Path
 from threading import Event
 from types import SimpleNamespace
 
@@ -19,6 +21,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.beginning import BeginWish
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS, Known
+from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.slices.viewing import Tool
 
@@ -89,6 +92,19 @@ def choose_answer(monkeypatch, name):
 
     monkeypatch.setattr(QMessageBox, "exec", press_button)
     return asked
+
+
+def test_the_plan_of_an_exercise_is_called_by_its_title_and_a_file_by_its_name(
+    window, patient, lesion
+):
+    title = window.feature(PlanFeature).panel.title
+    window.conductor.set_exercise(load_exercise(OWN))
+    window.show_patient(replace(patient, phantom_seed=6))  # the exercise's
+    assert title.text() == "Plan it yourself"
+    place_entry(window)
+    assert title.text() == "Plan it yourself •"
+    window.editor.saved(Path("mine.json"))
+    assert title.text() == "mine.json"
 
 
 # --- where the needle begins ------------------------------------------------------------------
@@ -176,6 +192,7 @@ def test_again_where_the_student_plans_is_no_dead_end_after_plan_anew(
     assert "Place the entry" in told(window)
     assert state(window) is State.ENDED
     place_entry(window)
+    window.workspace.show_exercise()
     assert settle(lambda: "F5" in line(window))
     assert told(window) == ""
     assert state(window) is State.ENDED, "nothing begins by itself"
@@ -222,6 +239,7 @@ def test_the_line_asks_for_f5_exactly_while_start_can_be_pressed(
     window.show_workspace()
     controller, panel = window.conductor.controller, window.workspace.exercise_panel
     draft = window.editor.edit.draft
+    window.workspace.show_exercise()
 
     def agrees(word):
         if not settle(lambda: word in line(window)):
