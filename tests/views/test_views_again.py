@@ -44,6 +44,9 @@ def somebody():
 
 
 def line(window):
+    """Return what the line says while the exercise is in front, not the plan."""
+    if not window.workspace.side.is_shown(window.workspace.exercise_panel):
+        window.workspace.show_exercise()
     return window.workspace.next_step.text()
 
 
@@ -192,7 +195,6 @@ def test_again_where_the_student_plans_is_no_dead_end_after_plan_anew(
     assert "Place the entry" in told(window)
     assert state(window) is State.ENDED
     place_entry(window)
-    window.workspace.show_exercise()
     assert settle(lambda: "F5" in line(window))
     assert told(window) == ""
     assert state(window) is State.ENDED, "nothing begins by itself"
@@ -239,7 +241,6 @@ def test_the_line_asks_for_f5_exactly_while_start_can_be_pressed(
     window.show_workspace()
     controller, panel = window.conductor.controller, window.workspace.exercise_panel
     draft = window.editor.edit.draft
-    window.workspace.show_exercise()
 
     def agrees(word):
         if not settle(lambda: word in line(window)):
