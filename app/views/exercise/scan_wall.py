@@ -34,7 +34,7 @@ from app.views.kit.coordinates import axis_words
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
 from app.views.slices.edges import EdgeWords, window_line
-from app.views.slices.words import Worth
+from app.views.slices.words import PLATE, Worth
 
 ROUND_MM: Final = 30.0
 """What is seen round the path on every side."""
@@ -152,7 +152,7 @@ class ScanTile(QWidget):
         painter.drawImage(QPointF(-0.5, -0.5), self._image)
         painter.resetTransform()
         title = self._edges.title.geometry().adjusted(-4, -2, 4, 2)
-        painter.fillRect(title, QColor(0, 0, 0, 150))
+        painter.fillRect(title, PLATE)
         self._edges.paint(painter)
         painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.0))
         painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))

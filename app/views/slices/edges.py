@@ -6,7 +6,7 @@ first.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Set
 from itertools import combinations
 
 from PySide6.QtCore import Qt
@@ -81,14 +81,15 @@ class EdgeWords:
         for overlay, letter, worth in zip(self.letters, letters, _LETTERS, strict=True):
             overlay.set_lines((letter, worth))
 
-    def arrange(self, ruled: bool) -> None:
+    def arrange(self, ruled: bool, without: Set[Worth] = frozenset()) -> None:
         """Put all where it covers nothing; leave out line by line what finds no room.
 
         Args:
             ruled: whether there is anything to be measured by the ruler.
+            without: lines that are left out even where there is room.
         """
         for overlay in self.texts:
-            overlay.leave_out()
+            overlay.leave_out(*(line for line in overlay.lines if line[1] in without))
             overlay.place()
         self.ruler.setVisible(ruled)
         while True:

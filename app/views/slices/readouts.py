@@ -25,6 +25,9 @@ from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
 from app.views.slices.words import Line, Worth
 
+COUNTED_PX = 320
+"""Width of a pane below which it is not said which slice of how many it is: the place says more."""
+
 SHOWN_TILT_DEG = 0.5
 """From this angle to the patient's axes a plane is called oblique."""
 
@@ -188,7 +191,9 @@ class Readouts(QObject):
         if arranged == self._arranged:
             return
         self._arranged = arranged
-        self._edges.arrange(ruled=canvas.plane is not None)
+        narrow = canvas.width() < theme.px(COUNTED_PX)
+        without = {Worth.COUNT} if narrow else frozenset[Worth]()
+        self._edges.arrange(ruled=canvas.plane is not None, without=without)
         self._hold_cursor()
 
     def _hold_cursor(self) -> None:
