@@ -126,7 +126,7 @@ class PacsPanel(QDialog):
         self.patient.setPlaceholderText(tr("* and ? stand for unknown characters"))
         self.name.setPlaceholderText(tr("Family, Given; * and ? stand for unknown characters"))
         written = day(date(2024, 2, 1))
-        self.date.setPlaceholderText(tr("{day}, or from – to with a dash", day=written))
+        self.date.setPlaceholderText(tr("{day}, or two days with a dash", day=written))
         server = QHBoxLayout()
         server.addWidget(self.servers, 1)
         server.addWidget(self.configure)
