@@ -151,9 +151,11 @@ def debrief(gallery: Gallery) -> None:
     gallery.sit_down(Role.STUDENT)
     feature.show()
     gallery.keep("debrief-student")
-    page.details.setChecked(True)  # an instructor has no such button: all is unfolded there
+    for unfolded in (page.fold, page.details):  # an instructor's has no such button as the last
+        unfolded.setChecked(True)
     gallery.keep("debrief-details")
-    page.details.setChecked(False)
+    for unfolded in (page.fold, page.details):
+        unfolded.setChecked(False)
 
 
 def reading(gallery: Gallery) -> None:

@@ -159,7 +159,7 @@ class ScanTile(QWidget):
 
     @property
     def readouts(self) -> EdgeWords:
-        """What is written over the slice."""
+        """Return the words over the slice."""
         return self._edges
 
     def resizeEvent(self, event: QResizeEvent) -> None:
