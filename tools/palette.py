@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage, QPixmap
 
 WIDEST_PX = 1280
@@ -23,7 +24,7 @@ def small_png(picture: QPixmap, path: Path) -> None:
     """
     image = picture.toImage().convertToFormat(QImage.Format.Format_RGB888)
     if image.width() > WIDEST_PX:
-        image = image.scaledToWidth(WIDEST_PX)
+        image = image.scaledToWidth(WIDEST_PX, Qt.TransformationMode.SmoothTransformation)
     data, step = bytes(image.constBits()), image.bytesPerLine()
     shown = Image.frombytes("RGB", (image.width(), image.height()), data, "raw", "RGB", step)
     indexed = shown.quantize(palette=_palette(np.asarray(shown)), dither=Image.Dither.NONE)

@@ -61,7 +61,7 @@ def structures(studio: Studio) -> None:
         10.0,
     )
     wait(lambda: desk.is_settled)
-    window.workspace.side.setCurrentIndex(window.workspace.side.count() - 1)
+    window.workspace.side.setCurrentWidget(desk.panel)
     window.workspace.show_layout("1+3")
     studio.zoom(2.6)
     studio.keep_window("structures-distance")

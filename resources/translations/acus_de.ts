@@ -13725,12 +13725,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">* und ? stehen für unbekannte Zeichen</translation>
         </message>
         <message>
-            <source>FAMILY^GIVEN, with * and ?</source>
-            <translation type="unfinished">NACHNAME^VORNAME, mit * und ?</translation>
+            <source>Family, Given; * and ? stand for unknown characters</source>
+            <translation type="unfinished">Nachname, Vorname; * und ? stehen für unbekannte Zeichen</translation>
         </message>
         <message>
-            <source>YYYYMMDD or YYYYMMDD-YYYYMMDD</source>
-            <translation type="unfinished">JJJJMMTT oder JJJJMMTT-JJJJMMTT</translation>
+            <source>{day}, or two days with a dash</source>
+            <translation type="unfinished">{day}, oder zwei Tage mit Strich dazwischen</translation>
         </message>
         <message>
             <source>Patient ID</source>
@@ -18954,6 +18954,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Forschungsgeräte</translation>
+        </message>
+        <message>
+            <source>{text!r} is no date: write {day}, or two days with a dash</source>
+            <translation type="unfinished">{text!r} ist kein Datum: Schreiben Sie {day}, oder zwei Tage mit Strich dazwischen</translation>
         </message>
     </context>
 </TS>

@@ -13725,12 +13725,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">* et ? remplacent des caractères inconnus</translation>
         </message>
         <message>
-            <source>FAMILY^GIVEN, with * and ?</source>
-            <translation type="unfinished">NOM^PRÉNOM, avec * et ?</translation>
+            <source>Family, Given; * and ? stand for unknown characters</source>
+            <translation type="unfinished">Nom, Prénom ; * et ? remplacent des caractères inconnus</translation>
         </message>
         <message>
-            <source>YYYYMMDD or YYYYMMDD-YYYYMMDD</source>
-            <translation type="unfinished">AAAAMMJJ ou AAAAMMJJ-AAAAMMJJ</translation>
+            <source>{day}, or two days with a dash</source>
+            <translation type="unfinished">{day}, ou deux jours séparés par un tiret</translation>
         </message>
         <message>
             <source>Patient ID</source>
@@ -18954,6 +18954,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Pour la recherche</translation>
+        </message>
+        <message>
+            <source>{text!r} is no date: write {day}, or two days with a dash</source>
+            <translation type="unfinished">{text!r} n’est pas une date : écrivez {day}, ou deux jours séparés par un tiret</translation>
         </message>
     </context>
 </TS>

@@ -131,7 +131,7 @@ def test_a_plan_that_was_discarded_is_asked_for_anew(user: User) -> None:
     time.sleep(3.0)
     take_a_mapped_path(user)
     user.keep_picture("plan-1-mapped")
-    user.wait(lambda seen: "F5" in seen["step"], "the line", 300)
+    user.wait(lambda seen: seen["start"], "the start", 300)
     user.key("F5")
     begun(user)
     user.keep_picture("plan-2-begun")
@@ -145,7 +145,7 @@ def test_a_plan_that_was_discarded_is_asked_for_anew(user: User) -> None:
     user.keep_picture("plan-3-discarded")
     assert user.see()["state"] == "ended"
     take_a_mapped_path(user)
-    user.wait(lambda seen: "F5" in seen["step"], "the line", 30)
+    user.wait(lambda seen: seen["start"], "the start", 30)
     user.keep_picture("plan-4-placed")
     user.key("F5", "F5")
     begun(user)

@@ -1,5 +1,7 @@
 """Between two attempts and two people: an attempt begins as the first one of its exercise does."""
 
+from dataclasses import replace
+from pathlib import Path
 from threading import Event
 from types import SimpleNamespace
 
@@ -19,6 +21,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.beginning import BeginWish
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS, Known
+from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.slices.viewing import Tool
 
@@ -41,6 +44,9 @@ def somebody():
 
 
 def line(window):
+    """Return what the line says while the exercise is in front, not the plan."""
+    if not window.workspace.side.is_shown(window.workspace.exercise_panel):
+        window.workspace.show_exercise()
     return window.workspace.next_step.text()
 
 
@@ -89,6 +95,19 @@ def choose_answer(monkeypatch, name):
 
     monkeypatch.setattr(QMessageBox, "exec", press_button)
     return asked
+
+
+def test_the_plan_of_an_exercise_is_called_by_its_title_and_a_file_by_its_name(
+    window, patient, lesion
+):
+    title = window.feature(PlanFeature).panel.title
+    window.conductor.set_exercise(load_exercise(OWN))
+    window.show_patient(replace(patient, phantom_seed=6))  # the exercise's
+    assert title.text() == "Plan it yourself"
+    place_entry(window)
+    assert title.text() == "Plan it yourself •"
+    window.editor.saved(Path("mine.json"))
+    assert title.text() == "mine.json"
 
 
 # --- where the needle begins ------------------------------------------------------------------

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from attempt_windows import begun, judged
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QScrollArea
 
@@ -183,6 +183,49 @@ def test_the_new_scan_stands_over_the_last_one_slice_by_slice(volume, destroy):
     above, below = wall.tiles
     assert len(above) == len(below) >= 2
     assert [tile.words for tile in above] == [tile.words for tile in below]
+
+
+@pytest.mark.parametrize("size", [(880, 700), (420, 240)])
+def test_every_slice_of_a_scan_says_directions_window_and_length_and_nothing_twice(
+    volume, destroy, size
+):
+    wall = wall_of(volume, "first")
+    destroy(wall)
+    wall.resize(*size)
+    wall.show()
+    QApplication.processEvents()
+    for tile in wall.tiles[0]:
+        words = tile.readouts
+        # a CT is read from the feet: the patient's right is on the left, the front is up
+        sides = [letter.text() for letter in words.letters]
+        assert sides[:2] == ["R", "L"]
+        if size[0] > 800:
+            assert sides[2:] == ["A", "P"]
+            assert words.window.text() == "W 400  L 40"
+            # a bar of round length that the tile's own scale agrees with
+            assert words.ruler.isVisible()
+        places = [one.geometry() for one in words.everything if not one.is_empty]
+        for number, place in enumerate(places):
+            assert tile.rect().contains(place)
+            assert not any(place.intersects(other) for other in places[number + 1 :])
+
+
+def test_the_letters_of_a_scan_are_painted_and_gone_with_the_slice(volume, destroy):
+    wall = wall_of(volume, "first")
+    destroy(wall)
+    wall.show()
+    QApplication.processEvents()
+    tile = wall.tiles[0][0]
+    shot = tile.grab().toImage()
+    place = tile.readouts.letters[0].geometry()
+    colours = {
+        shot.pixelColor(x, y).name()
+        for x in range(place.left(), place.right())
+        for y in range(place.top(), place.bottom())
+    }
+    assert theme.IMAGE_WARNING in colours
+    tile.show_slice(None, 0, WindowLevel(400.0, 40.0), QRectF(0.0, 0.0, 10.0, 10.0))
+    assert all(one.is_empty for one in tile.readouts.everything)
 
 
 def shifted(volume, millimetres):

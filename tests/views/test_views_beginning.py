@@ -17,6 +17,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.beginning import LINGER_S, TRAINEE_DONE, BeginWish
 from app.views.exercise.briefing import aid_words, locked_words, scored_words
 from app.views.exercise.feature import ExerciseFeature
+from app.views.kit.roles import Role
 
 PHANTOM = Plan((-70.0, -109.0, 180.0), (-70.0, -20.0, 180.0), "phantom")
 
@@ -206,10 +207,19 @@ def test_the_words_say_what_counts_what_helps_and_what_is_locked():
         "Off the path: best up to 0.6 mm, passes up to 2.7 mm; must be kept"
     )
     assert scored_words(first)[-1] == "75 of 100 points pass."
-    assert aid_words(first)[0] == "The robot guides with 70 %."
+    assert aid_words(first, Role.STUDENT)[0] == "The robot guides with 70 %."
     assert locked_words(first) == ["Nothing: you may change help, views and layout."]
-    assert "control scans alone" in " ".join(aid_words(scans))
+    assert "control scans alone" in " ".join(aid_words(scans, Role.STUDENT))
     assert "what moves the hand" in locked_words(scans)[0]
+
+
+def test_the_briefing_promises_a_student_no_view_that_only_technicians_have():
+    exercise = load_exercise("plan-it-yourself")
+    assert "cameras" in exercise.shown_views
+    for role, has_cameras in ((Role.STUDENT, False), (Role.TECHNICIAN, True)):
+        words = aid_words(exercise, role)[-1]
+        assert words.startswith("Shown: Needle on the slices")
+        assert ("Camera pictures" in words) is has_cameras
 
 
 @pytest.mark.long("journey")

@@ -1,9 +1,13 @@
 """The rules of `tools.looks` hold on the pages that matter most, and find planted faults."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from attempt_windows import begun
+from PIL import Image
 from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtGui import QColor, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
@@ -21,6 +25,7 @@ from app.views.kit.roles import Role
 from tools.looks import rules
 from tools.looks.measure import difference
 from tools.looks.pseudo import Longer, longer
+from tools.palette import WIDEST_PX, small_png
 
 
 @pytest.fixture
@@ -210,3 +215,24 @@ def test_with_longer_words_the_window_still_fits_a_small_screen(
         assert (least.width() <= 1366, least.height() <= 768) == (True, True)
     finally:
         QCoreApplication.removeTranslator(words)
+
+
+# --- the pictures themselves ------------------------------------------------------------------
+def test_no_two_of_the_pictures_that_are_kept_show_the_same():
+    kept = sorted((Path(__file__).parents[1] / "data" / "looks").glob("*.png"))
+    assert len({picture.read_bytes() for picture in kept}) == len(kept) > 0
+
+
+def test_fine_strokes_are_not_lost_in_a_picture_that_is_scaled_down(application, tmp_path):
+    wide = QImage(2 * WIDEST_PX, 40, QImage.Format.Format_RGB32)
+    wide.fill(QColor("black"))
+    with QPainter(wide) as painter:
+        painter.setPen(QColor("white"))
+        for x in range(0, wide.width(), 20):  # strokes of one pixel at even and at odd places
+            painter.drawLine(x, 0, x, 39)
+            painter.drawLine(x + 9, 0, x + 9, 39)
+    small_png(QPixmap.fromImage(wide), tmp_path / "small.png")
+    row = np.asarray(Image.open(tmp_path / "small.png").convert("L"))[10]
+    for place in range(0, WIDEST_PX - 10, 10):  # half the light of each, as its width is halved
+        for stroke in (place, place + 4):
+            assert row[max(0, stroke - 1) : stroke + 2].max() > 60

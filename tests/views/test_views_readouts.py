@@ -4,13 +4,15 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QRectF
-from PySide6.QtGui import QHelpEvent
+from PySide6.QtCore import QPoint, QPointF, QRectF
+from PySide6.QtGui import QColor, QHelpEvent, QImage, QPainter
 from PySide6.QtWidgets import QToolTip
 
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.kit import theme
+from app.views.slices.items import MarkItem
+from app.views.slices.labels import PlacedLabel
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId, pane_name
 from app.views.slices.presentation import Presentation, Slab, Turn
@@ -97,6 +99,29 @@ def test_words_that_come_and_go_with_the_mouse_find_names_of_marks_out_of_their_
     pane.readouts.clear_cursor()
     pane.canvas.flush()
     assert covering(pane) == []
+
+
+def test_a_narrow_pane_says_the_place_of_its_slice_and_leaves_its_number_to_the_tooltip(pane):
+    for width, counted in ((600, True), (300, False), (600, True)):
+        pane.resize(width, 400)
+        pane.canvas.flush()
+        assert ("Slice" in pane.readouts.slice.text()) is counted
+        assert " mm" in pane.readouts.slice.text()
+        assert "Slice" in pane.readouts.whole_text()
+
+
+def test_the_name_of_a_mark_stands_on_a_dark_plate_on_the_brightest_tissue(application):
+    mark, picture = MarkItem(theme.TARGET, 1.0), QImage(200, 100, QImage.Format.Format_RGB32)
+    picture.fill(QColor("white"))
+    mark.place(20.0, 50.0, lambda: "Target", near=True)
+    wanted = mark.wanted(QPointF(20.0, 50.0))
+    place = (60.0, 40.0, wanted.width, wanted.height)
+    mark.place_label(QPointF(20.0, 50.0), PlacedLabel(place, 0))
+    with QPainter(picture) as painter:
+        mark.paint(painter)
+    above = [picture.pixelColor(x, 41) for x in range(60, 60 + round(wanted.width))]  # no letter
+    # 60 % black over white leaves 102 of 255
+    assert max(colour.lightness() for colour in above) <= 104
 
 
 def test_the_least_important_line_goes_first_and_comes_back_where_there_is_room(viewing, pane):

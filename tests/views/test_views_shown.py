@@ -26,6 +26,7 @@ from app.session.transitions import PauseCause
 from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.steps import step_words
+from app.views.plan.feature import PlanFeature
 from app.views.reading.lock_words import view_title
 
 SHIFT = np.array([0.002, 0.006, -0.003])
@@ -282,6 +283,7 @@ def test_one_line_over_the_views_always_says_the_next_step(shows, settle):
     line = window.workspace.next_step
     assert line.isVisible()
     run = window.conductor.controller.run
+    window.workspace.show_exercise()
     assert settle(lambda: line.text() == "Press F5 to start the attempt")
     moment = replace(run.trainer.snapshot(), state=State.INSERTING)
     window.conductor.controller.snapshot_taken.emit(moment)
@@ -295,10 +297,27 @@ def test_one_line_over_the_views_always_says_the_next_step(shows, settle):
     assert not line.isVisible()
 
 
+def test_who_is_at_the_plan_is_not_told_to_start_and_the_views_do_not_move(shows, settle):
+    on, _ = both(ViewName.LIVE_OVERLAY)
+    window = shows(on)
+    line, side, run = window.workspace.next_step, window.workspace.side, window.conductor.controller
+    window.workspace.show_exercise()
+    assert settle(lambda: line.text() == "Press F5 to start the attempt")
+    place, loud = line.geometry(), line.styleSheet()
+    side.setCurrentWidget(window.feature(PlanFeature).panel)
+    assert settle(lambda: line.text() == "")
+    assert settle(lambda: line.geometry() == place)
+    assert line.styleSheet() != loud
+    # an order of an attempt that runs is given whatever panel is open
+    run.snapshot_taken.emit(replace(run.run.trainer.snapshot(), state=State.INSERTING))
+    assert settle(lambda: line.text() == "Pull back 2 mm (wheel towards you)")
+
+
 def test_an_attempt_that_waits_for_the_computer_blames_the_computer_in_large_letters(shows, settle):
     on, _ = both(ViewName.LIVE_OVERLAY)
     window = shows(on)
     line, run = window.workspace.next_step, window.conductor.controller.run
+    window.workspace.show_exercise()
     assert settle(lambda: line.text() == "Press F5 to start the attempt")
     waits = replace(
         run.trainer.snapshot(),

@@ -34,6 +34,7 @@ from app.views.exercise.panel import TouchNote, hand_words
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.steps import PADDING, NextStepLine, touch_words
 from app.views.kit import theme
+from app.views.kit.roles import Role
 from app.views.kit.theme import LARGE
 from app.views.reading.workspace import SIDE_WIDTH
 from app.views.sounds.feature import _OF_EVENTS, CueKind, Cues
@@ -196,7 +197,7 @@ def test_on_the_way_to_targets_only_a_touch_is_heard():
 
 
 def test_the_briefing_says_what_is_steered_and_what_counts(qt):
-    assert any("the tip goes the other way" in line for line in aid_words(EXERCISE))
+    assert any("the tip goes the other way" in line for line in aid_words(EXERCISE, Role.STUDENT))
     said = "\n".join(scored_words(EXERCISE))
     assert "Targets touched" in said
     assert "Time per target" in said

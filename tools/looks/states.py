@@ -144,9 +144,6 @@ def debrief(gallery: Gallery) -> None:
     wait(lambda: page.isVisible() and page.views.has_ct)
     pause(2.0)
     gallery.keep("debrief-instructor")
-    page.details.setChecked(True)
-    gallery.keep("debrief-details")
-    page.details.setChecked(False)
     feature.show_sessions()
     pause(0.5)
     gallery.keep("sessions")
@@ -154,6 +151,11 @@ def debrief(gallery: Gallery) -> None:
     gallery.sit_down(Role.STUDENT)
     feature.show()
     gallery.keep("debrief-student")
+    for unfolded in (page.fold, page.details):  # an instructor's has no such button as the last
+        unfolded.setChecked(True)
+    gallery.keep("debrief-details")
+    for unfolded in (page.fold, page.details):
+        unfolded.setChecked(False)
 
 
 def reading(gallery: Gallery) -> None:

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 
 from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import HandName, Lock
-from app.exercises.parts import OwnPlan, ViewName
+from app.exercises.parts import OwnPlan
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
 from app.scoring.metrics import available
@@ -30,8 +30,9 @@ from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import FittingButton, PlainLabel, button, label
+from app.views.kit.roles import Role
 from app.views.kit.text import declared, listing, literal, number, tr, tr_n
-from app.views.reading.lock_words import view_title
+from app.views.reading.lock_words import view_title, views_for
 from app.views.shell.shortcuts import disclaimer_label
 
 HARDEST = 9
@@ -125,8 +126,8 @@ def locked_words(exercise: Exercise) -> list[str]:
     return [tr("Stays as it is: {what}.", what=words)]
 
 
-def aid_words(exercise: Exercise) -> list[str]:
-    """Say what helps: the robot, and what is seen of the needle."""
+def aid_words(exercise: Exercise, role: Role) -> list[str]:
+    """Say what helps: the robot, and what somebody in this role sees of the needle."""
     share = exercise.assistance
     if exercise.fading is not None:
         robot = (
@@ -155,7 +156,7 @@ def aid_words(exercise: Exercise) -> list[str]:
                 mm=exercise.guidance.slice_mm,
             )
         )
-    shown = [view_title(view) for view in ViewName if view in exercise.shown_views]
+    shown = [view_title(view) for view in views_for(role) if view in exercise.shown_views]
     if shown:
         said.append(tr("Shown: {views}.", views=listing(shown)))
     return said
@@ -329,7 +330,7 @@ class BriefingPage(QWidget):
         )
         self.scored.setText(_lines(scored_words(exercise)))
         self.locked.setText(_lines(locked_words(exercise)))
-        self.aids.setText(_lines(aid_words(exercise)))
+        self.aids.setText(_lines(aid_words(exercise, ACCESS.role)))
         self.show_portrait(portrait)
         self.set_allowance(AttemptsLeft())
         self.skip.setChecked(False)

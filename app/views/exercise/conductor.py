@@ -295,6 +295,7 @@ class Conductor(QObject):
         self._profile = device_of(exercise)
         self.exercise = exercise
         self._editor.set_profile(self._profile)
+        self._editor.set_exercise(exercise.id, exercise.title)
         radii = rings_of(exercise)
         self._workspace.viewing.set_tolerances(tuple(radius / MILLIMETRE for radius in radii))
         self._as_the_exercise_says(reading=False)

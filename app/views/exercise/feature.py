@@ -20,8 +20,9 @@ from app.views.exercise.beginning import Beginning
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.question import ask
-from app.views.kit.roles import EVERYBODY, TECHNICIANS, Role
+from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import declared, listing, tr, translated
+from app.views.reading.lock_words import CAMERA_ROLES
 from app.views.shell.feature import Context, Feature
 
 
@@ -46,7 +47,7 @@ class ExerciseFeature(Feature):
         self._asked = 0
         self.exercises = {exercise.id: exercise for exercise in context.services.exercises()}
         self._shell.add_panel(self._panel, tr("Exercise"))
-        with self._shell.made_for(TECHNICIANS):
+        with self._shell.made_for(CAMERA_ROLES):
             self._shell.add_panel(self._cameras(), tr("Cameras"), scrolls=False)
         self._panel.set_exercises(self.titles)
         self._panel.buttons.watch(self._shell.dialog_parent)

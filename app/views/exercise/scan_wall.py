@@ -13,7 +13,6 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
-    QFont,
     QImage,
     QMouseEvent,
     QPainter,
@@ -26,6 +25,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
+from app.imaging.orthogonal import letters
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel, to_grey
 from app.planning.draft import DraftPlan
@@ -33,6 +33,8 @@ from app.views.kit import theme
 from app.views.kit.coordinates import axis_words
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
+from app.views.slices.edges import EdgeWords, window_line
+from app.views.slices.words import PLATE, Worth
 
 ROUND_MM: Final = 30.0
 """What is seen round the path on every side."""
@@ -41,6 +43,9 @@ LEAST_PX: Final = 200
 """Width of a slice below which fewer stand side by side."""
 
 _NOTCH: Final = 120
+
+_EDGES: Final = ((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0))
+"""Directions (LPS) to the left, right, upper and lower edge: `to_pixels` turns nothing."""
 
 _SAME_MM: Final = 1e-3
 """Places along the patient that differ by less are one."""
@@ -82,6 +87,7 @@ class ScanTile(QWidget):
         self._image: QImage | None = None
         self._to_mm = QTransform()
         self._box = QRectF(-50.0, -50.0, 100.0, 100.0)
+        self._edges = EdgeWords(self)
         self.words = ""
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
         if opens:
@@ -103,7 +109,9 @@ class ScanTile(QWidget):
         if shot is None or not 0 <= number < shot.picture.size[2]:
             self._image, self.words = None, ""
             self.setAccessibleName("")
-            self.update()
+            for written in self._edges.texts:
+                written.set_lines()
+            self._arrange()
             return
         volume = shot.picture
         grey = np.ascontiguousarray(to_grey(volume.hu[number], window))
@@ -115,7 +123,10 @@ class ScanTile(QWidget):
         self._to_mm = QTransform(right[0], right[1], down[0], down[1], first[0], first[1])
         self.words = axis_words(2, float(first[2]))
         self.setAccessibleName(self.words)
-        self.update()
+        self._edges.title.set_lines((self.words, Worth.TITLE))
+        self._edges.window.set_lines(window_line(window))
+        self._edges.set_letters(letters(way) for way in _EDGES)
+        self._arrange()
 
     def to_pixels(self) -> QTransform:
         """Return what takes millimetres of the patient to the tile's pixels: the box in its
@@ -131,7 +142,7 @@ class ScanTile(QWidget):
         return made
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw the slice, and its place."""
+        """Draw the slice, its place, window and directions, and the ruler."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
         if self._image is None:
@@ -140,18 +151,26 @@ class ScanTile(QWidget):
         painter.setTransform(self._to_mm * self.to_pixels())
         painter.drawImage(QPointF(-0.5, -0.5), self._image)
         painter.resetTransform()
-        font = QFont(self.font())
-        font.setPixelSize(theme.SMALL_PX)
-        painter.setFont(font)
-        room = QRectF(self.rect()).adjusted(6.0, 4.0, -6.0, -4.0)
-        wide = painter.fontMetrics().horizontalAdvance(self.words) + 8
-        ground = QRectF(room.left() - 4.0, room.top() - 2.0, wide, theme.SMALL_PX + 8.0)
-        painter.fillRect(ground, QColor(0, 0, 0, 150))
-        painter.setPen(QColor(theme.IMAGE_TEXT))
-        top = Qt.AlignmentFlag.AlignTop
-        painter.drawText(room, top | Qt.AlignmentFlag.AlignLeft, self.words)
+        title = self._edges.title.geometry().adjusted(-4, -2, 4, 2)
+        painter.fillRect(title, PLATE)
+        self._edges.paint(painter)
         painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.0))
         painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))
+
+    @property
+    def readouts(self) -> EdgeWords:
+        """Return the words over the slice."""
+        return self._edges
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Find the words their places in the new size."""
+        super().resizeEvent(event)
+        self._arrange()
+
+    def _arrange(self) -> None:
+        self._edges.ruler.set_scale(self.to_pixels().m11())
+        self._edges.arrange(ruled=self._image is not None)
+        self.update()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Ask for the slice alone."""

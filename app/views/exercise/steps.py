@@ -1,5 +1,6 @@
 """The next step of an attempt as an order, and the one line that says it."""
 
+from collections.abc import Callable
 from typing import Final
 
 from PySide6.QtCore import Qt, QTimer, Signal
@@ -196,8 +197,18 @@ class NextStepLine(PlainLabel):
     spoken = Signal(str, bool)
     stepped = Signal(object, bool)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, parent: QWidget | None = None, offers_start: Callable[[], bool] = lambda: True
+    ) -> None:
+        """Make an empty line.
+
+        Args:
+            parent: widget that it stands in.
+            offers_start: returns whether the start is to be spoken of; it is not while somebody is
+                at another panel, the plan's above all. Who changes it calls `follow_panel`.
+        """
         super().__init__(parent)
+        self._offers_start = offers_start
         self._steps: NextSteps | None = None
         self._run: ExerciseRun | None = None
         self._snapshot: Snapshot | None = None
@@ -240,6 +251,10 @@ class NextStepLine(PlainLabel):
         self._aside = aside
         self._stand()
 
+    def follow_panel(self) -> None:
+        """Speak of the start, or no more: another panel is shown."""
+        self._ask()
+
     def _stand(self) -> None:
         self.setVisible(self._run is not None and not (self._gives_way or self._aside))
 
@@ -273,6 +288,8 @@ class NextStepLine(PlainLabel):
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
         ground = theme.now(theme.GOOD if self._told else theme.ACCENT)
+        if not self.text():  # the place stays, so that the views below do not move
+            ground = theme.now(theme.BACKGROUND)
         ink = theme.now(theme.BACKGROUND)
         style = (
             f"background: {ground}; color: {ink}; font-size: {self._fitting()}px; font-weight: 600;"
@@ -324,6 +341,8 @@ class NextStepLine(PlainLabel):
             words = tr("The demonstration begins")
         elif step.kind is StepKind.START and not self._may_start:
             words = self._why_not or waiting_words()
+        elif step.kind is StepKind.START and not self._offers_start():
+            words = ""
         elif self._snapshot.breath is not None and step.kind not in ASIDE:
             words = breath_words(self._snapshot.breath, words, not shows)
         words = ending_words() if self._ends else self._told or words

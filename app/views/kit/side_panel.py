@@ -118,12 +118,14 @@ class SidePanel(QWidget):
         self._buttons.button(index).setChecked(True)
         self.changed.emit(index)
 
+    def is_shown(self, panel: QWidget) -> bool:
+        """Return whether a panel, or the one that it is in, is the one that is shown."""
+        return _holds(self.currentWidget(), panel)
+
     def setCurrentWidget(self, panel: QWidget) -> None:
         """Show a panel that was added, or the one that it is in."""
         for index in range(self.count()):
-            there = self._panels.widget(index)
-            holds = there is not None and (there is panel or there.isAncestorOf(panel))
-            if holds and index in self.there:
+            if _holds(self._panels.widget(index), panel) and index in self.there:
                 self.setCurrentIndex(index)
 
     def names(self) -> tuple[str, ...]:
@@ -140,6 +142,10 @@ class SidePanel(QWidget):
                 self.setCurrentIndex(there[(there.index(self.currentIndex()) + step) % len(there)])
         else:
             super().keyPressEvent(event)
+
+
+def _holds(outer: QWidget | None, panel: QWidget) -> bool:
+    return outer is not None and (outer is panel or outer.isAncestorOf(panel))
 
 
 def scrolled(panel: QWidget, parent: QWidget | None = None) -> QScrollArea:

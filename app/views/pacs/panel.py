@@ -6,6 +6,7 @@ are never stored or logged.
 
 from __future__ import annotations
 
+from datetime import date
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
@@ -32,7 +33,8 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import tr, translated
+from app.views.kit.text import day, tr, translated
+from app.views.pacs.words import date_words, dates_asked, name_asked, name_words
 
 if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries, Query
@@ -84,7 +86,9 @@ class PacsPanel(QDialog):
 
         settings = self.servers.currentData()
         try:
-            query = Query(self.patient.text(), self.name.text(), self.date.text().strip())
+            query = Query(
+                self.patient.text(), name_asked(self.name.text()), dates_asked(self.date.text())
+            )
         except AcusError as error:
             self.note.setText(translated(error))
             return
@@ -120,8 +124,9 @@ class PacsPanel(QDialog):
 
     def _lay_out(self) -> None:
         self.patient.setPlaceholderText(tr("* and ? stand for unknown characters"))
-        self.name.setPlaceholderText(tr("FAMILY^GIVEN, with * and ?"))
-        self.date.setPlaceholderText(tr("YYYYMMDD or YYYYMMDD-YYYYMMDD"))
+        self.name.setPlaceholderText(tr("Family, Given; * and ? stand for unknown characters"))
+        written = day(date(2024, 2, 1))
+        self.date.setPlaceholderText(tr("{day}, or two days with a dash", day=written))
         server = QHBoxLayout()
         server.addWidget(self.servers, 1)
         server.addWidget(self.configure)
@@ -230,9 +235,9 @@ def _row(series: FoundSeries, here: int) -> QTreeWidgetItem:
         count = tr("{here} of {count} here, to be resumed", here=here, count=count)
     item = QTreeWidgetItem(
         [
-            NAMES.shown(study.patient_name),
+            NAMES.shown(name_words(study.patient_name)),
             NAMES.shown(study.patient_id),
-            study.date,
+            date_words(study.date),
             NAMES.shown(study.description),
             f"{series.number}  {NAMES.shown(series.description)}".strip(),
             series.body_part,

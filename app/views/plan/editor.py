@@ -21,7 +21,7 @@ from app.planning.history import UndoHistory
 from app.planning.placement import Placement
 from app.planning.plan import Plan
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr, translated
+from app.views.kit.text import declared, tr, translated
 from app.views.shell.settings import Recents
 from app.views.slices.viewing import Tool
 
@@ -159,6 +159,7 @@ class PlanEditor(QObject):
         self._judge = Judge()
         self.path: Path | None = None
         self.locked = self.keeps_target = False
+        self._exercise = ("", "")
         self._clicked: tuple[Point, DraftPlan] | None = None
         self._fresh = True  # the present gesture has changed nothing yet
         self.verdict = PlanVerdict(None)
@@ -168,6 +169,14 @@ class PlanEditor(QObject):
     def edit(self) -> Edit:
         """Points and position now."""
         return self._history.present
+
+    @property
+    def name(self) -> str:
+        """Name of the plan for people: its file, or the title of the exercise that it is of."""
+        if self.path is not None:
+            return self.path.name
+        name, (identifier, title) = self.edit.draft.name, self._exercise
+        return declared(title) if title and name == identifier else name
 
     @property
     def dirty(self) -> bool:
@@ -199,6 +208,10 @@ class PlanEditor(QObject):
         """Refuse changes while an attempt runs."""
         self.locked = locked
         self.changed.emit()
+
+    def set_exercise(self, identifier: str, title: str) -> None:
+        """Take the exercise whose plans are called by its title."""
+        self._exercise = identifier, title
 
     def set_keeps_target(self, keeps: bool) -> None:
         """Refuse another target from now on: the exercise gives it, the entry is the student's."""

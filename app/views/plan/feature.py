@@ -83,7 +83,7 @@ class PlanPanel(QWidget):
             self._editor.edit.draft,
             self._editor.edit.placement,
         )
-        name = NAMES.shown(editor.path.name if editor.path else draft.name)
+        name = NAMES.shown(editor.name)
         self.title.setText(f"{name} •" if editor.dirty else name)
         self.title.setToolTip(tr("• unsaved changes") if editor.dirty else "")
         self.entry.setText(_point_text(draft.entry_mm))
@@ -302,7 +302,7 @@ class PlanFeature(Feature):
         """Say that the plan has unsaved changes; empty where it has none."""
         if not self._editor.dirty:
             return ""
-        name = NAMES.shown(self._editor.edit.draft.name)
+        name = NAMES.shown(self._editor.name)
         return tr("the plan “{name}”, which has unsaved changes", name=name)
 
     def save(self) -> bool:

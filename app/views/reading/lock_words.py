@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from app.exercises.guidance import Purpose
 from app.exercises.locks import Lock
 from app.exercises.parts import ViewName
 from app.exercises.schema import Exercise
+from app.views.kit.roles import TECHNICIANS, Role
 from app.views.kit.text import declared, tr
 
 
@@ -27,6 +30,15 @@ def why_locked(exercise: Exercise | None, lock: Lock) -> str:
     if lock not in (exercise.locks or ()):
         return tr("Control scans guide here: {what} stays as the exercise has it.", what=what)
     return tr("The exercise “{title}” sets {what}.", title=declared(exercise.title), what=what)
+
+
+CAMERA_ROLES: Final = TECHNICIANS
+"""Who has the panel of the cameras; for others there are no camera pictures to be shown."""
+
+
+def views_for(role: Role) -> tuple[ViewName, ...]:
+    """Return the views that an exercise can show to somebody in a role."""
+    return tuple(view for view in ViewName if view is not ViewName.CAMERAS or role in CAMERA_ROLES)
 
 
 def view_title(view: ViewName) -> str:

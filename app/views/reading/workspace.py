@@ -165,7 +165,7 @@ class WorkspacePage(QWidget):
         self.status = StatusStrip(self)
         self.status.detailed.connect(self._show_details)
         self.status.set_detailed(False)
-        self.next_step = NextStepLine(self)
+        self.next_step = NextStepLine(self, lambda: self.side.is_shown(self.exercise_panel))
         hand = self.bullseye.source
         hand.turned.connect(lambda: self.next_step.set_moves_hub(hand.moves_hub))
         panel = self.exercise_panel
@@ -174,6 +174,7 @@ class WorkspacePage(QWidget):
         )
         self.side = SidePanel(self)
         self.side.setFixedWidth(SIDE_WIDTH)
+        self.side.changed.connect(lambda _: self.next_step.follow_panel())
         self.disclaimer = disclaimer_label(self)
         self.rail = panel.rail
         self.rail.set_note(self.disclaimer.text())

@@ -13,7 +13,7 @@ from app.views.kit import theme
 from app.views.kit.theme import Mark, Symbol
 from app.views.slices.drawing import Ink, Shape, Strokes, stroke
 from app.views.slices.labels import PlacedLabel, Wanted
-from app.views.slices.words import rimmed
+from app.views.slices.words import PLATE, rimmed
 
 
 class SegmentItem(Strokes):
@@ -120,7 +120,7 @@ class MarkItem(Shape):
         return self._rect
 
     def paint(self, painter: QPainter) -> None:
-        """Copy the symbol, then the label with a dark shadow; neither zooms."""
+        """Copy the symbol, then the label on its dark plate; neither zooms."""
         at = painter.transform().map(self._at)
         painter.resetTransform()
         ratio = painter.device().devicePixelRatioF()
@@ -136,6 +136,7 @@ class MarkItem(Shape):
         half = _reach(self._mark)
         painter.drawPixmap(at - QPointF(half, half), self._symbol)
         if self._rect is not None and self._label:
+            painter.fillRect(self._rect.translated(at), PLATE)
             painter.drawPixmap(self._rect.center() + at - self._middle, self._picture)
 
 

@@ -7,9 +7,8 @@ first, and the whole text is in the tooltip of what is left.
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import combinations
 
-from PySide6.QtCore import QObject, QRect, Qt
+from PySide6.QtCore import QObject, QRect
 from PySide6.QtGui import QHelpEvent
 from PySide6.QtWidgets import QToolTip
 
@@ -20,15 +19,14 @@ from app.views.kit.coordinates import lps_words
 from app.views.kit.names import NAMES
 from app.views.kit.text import literal, number, tr
 from app.views.slices.canvas import SliceCanvas
+from app.views.slices.edges import EdgeWords, window_line
 from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
-from app.views.slices.words import PADDING, Line, Overlay, Ruler, Worth, Written
+from app.views.slices.words import Line, Worth
 
-_A = Qt.AlignmentFlag
-
-APART = 6
-"""Least gap between words that stand beside each other [px]."""
+COUNTED_PX = 320
+"""Width of a pane below which it is not said which slice of how many it is: the place says more."""
 
 SHOWN_TILT_DEG = 0.5
 """From this angle to the patient's axes a plane is called oblique."""
@@ -61,23 +59,10 @@ class Readouts(QObject):
         self._canvas = canvas
         self._hovered: FloatArray | None = None
         self._note, self._along = "", Along.NEEDLE
-        self.title = Overlay(canvas, _A.AlignLeft | _A.AlignTop)
-        self.window = Overlay(canvas, _A.AlignRight | _A.AlignTop)
-        self.cursor = Overlay(canvas, _A.AlignLeft | _A.AlignBottom)
-        self.slice = Overlay(canvas, _A.AlignRight | _A.AlignBottom)
-        edges = (
-            _A.AlignLeft | _A.AlignVCenter,
-            _A.AlignRight | _A.AlignVCenter,
-            _A.AlignHCenter | _A.AlignTop,
-            _A.AlignHCenter | _A.AlignBottom,
-        )
-        self.letters = tuple(
-            Overlay(canvas, edge, theme.IMAGE_WARNING, bold=True, larger=3) for edge in edges
-        )
-        self.ruler = Ruler(canvas)
-        self._corners = (self.title, self.window, self.cursor, self.slice)
-        for one in (*self._corners, *self.letters, self.ruler):
-            canvas.written.append(one)
+        self._edges = edges = EdgeWords(canvas)
+        self.title, self.window, self.cursor, self.slice = edges.corners
+        self.letters, self.ruler = edges.letters, edges.ruler
+        canvas.written.extend(edges.everything)
         self._arranged: tuple[object, ...] = ()
         self._is_new = True
         canvas.changed.connect(self.refresh)
@@ -107,9 +92,7 @@ class Readouts(QObject):
         name = (NAMES.shown(volume.series.pseudonym), Worth.NAME)
         special = [(words, Worth.WARNING) for words in (*_made(volume), *self._special_view(plane))]
         self.title.set_lines(title, name, note, *special, first=colour)
-        worths = (Worth.LETTER, Worth.LETTER, Worth.UPRIGHT_LETTER, Worth.UPRIGHT_LETTER)
-        for overlay, letter, worth in zip(self.letters, plane.letters(), worths, strict=True):
-            overlay.set_lines((letter, worth))
+        self._edges.set_letters(plane.letters())
 
     def _special_view(self, plane: SlicePlane) -> list[str]:
         """Say what a reader must not overlook: that it is a slab, that it is turned."""
@@ -143,10 +126,7 @@ class Readouts(QObject):
         greys, index = self._canvas.viewing.greys, self._canvas.index
         window = greys.of(self._canvas.pane)
         self.window.set_lines(
-            (
-                tr("W {width:.0f}  L {level:.0f}", width=window.width, level=window.level),
-                Worth.WINDOW,
-            ),
+            window_line(window),
             (tr("locked") if greys.is_locked else "", Worth.WINDOW),
             (tr("inverted") if greys.is_inverted else "", Worth.WARNING),
             (tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale), Worth.ZOOM),
@@ -205,51 +185,16 @@ class Readouts(QObject):
     # --- room ---------------------------------------------------------------------------------
     def _arrange(self) -> None:
         """Put all where it covers nothing; leave out line by line what finds no room."""
-        canvas, words = self._canvas, (*self._corners, *self.letters)
+        canvas = self._canvas
         room = (canvas.width(), canvas.height(), theme.SMALL_PX, canvas.devicePixelRatioF())
-        arranged = (room, canvas.plane is None, *(one.lines for one in words))
+        arranged = (room, canvas.plane is None, *(one.lines for one in self._edges.texts))
         if arranged == self._arranged:
             return
         self._arranged = arranged
-        for overlay in words:
-            overlay.leave_out()
-            overlay.place()
-        self.ruler.setVisible(canvas.plane is not None)
-        while True:
-            self._place_beside()
-            going = [(line, one) for one in self._crowded() if (line := one.least) is not None]
-            if not going:
-                break
-            line, one = min(going, key=lambda found: found[0][1])
-            one.leave_out(*one.left_out, line)
+        narrow = canvas.width() < theme.px(COUNTED_PX)
+        without = {Worth.COUNT} if narrow else frozenset[Worth]()
+        self._edges.arrange(ruled=canvas.plane is not None, without=without)
         self._hold_cursor()
-
-    def _place_beside(self) -> None:
-        """Let the upper and the lower letter stand between the corners, the ruler above its own."""
-        self._place_between(self.letters[2], self.title, self.window)
-        self._place_between(self.letters[3], self.cursor, self.slice)
-        bar, words = self.ruler.geometry(), self.slice
-        base = self._canvas.height() - PADDING if words.is_empty else words.pos().y() - 2
-        self.ruler.move(self._canvas.width() - PADDING - bar.width(), base - bar.height())
-
-    def _place_between(self, letter: Overlay, left: Overlay, right: Overlay) -> None:
-        """Put a letter in the middle of the pane, or of the gap between two corners."""
-        letter.place()
-        if not any(_touch(letter, one) for one in (left, right)):
-            return
-        begin = PADDING if left.is_empty else left.geometry().right() + 1
-        end = self._canvas.width() - PADDING if right.is_empty else right.pos().x()
-        letter.move((begin + end - letter.geometry().width()) // 2, letter.pos().y())
-
-    def _crowded(self) -> list[Written]:
-        """Return what covers another's place, or has none in the pane."""
-        everything = (*self._corners, *self.letters, self.ruler)
-        shown = [one for one in everything if not one.is_empty]
-        pane, crowded = self._canvas.rect(), set[Written]()
-        for one, other in combinations(shown, 2):
-            if _touch(one, other):
-                crowded |= {one, other}
-        return [one for one in shown if one in crowded or not pane.contains(one.geometry())]
 
     def _hold_cursor(self) -> None:
         """Keep the names of marks off what the mouse says, and off as much as it has said."""
@@ -265,22 +210,16 @@ class Readouts(QObject):
         Returns:
             Whether it did.
         """
-        words = [one for one in (*self._corners, *self.letters) if not one.is_empty]
+        words = [one for one in self._edges.texts if not one.is_empty]
         rests = any(one.geometry().contains(event.pos()) for one in words)
-        if not rests or not any(one.is_cut for one in self._corners):
+        if not rests or not any(one.is_cut for one in self._edges.corners):
             return False
         QToolTip.showText(event.globalPos(), literal(self.whole_text()), self._canvas)
         return True
 
     def whole_text(self) -> str:
         """Return all that the corners have to say, whether there is room for it or not."""
-        return "\n".join(text for one in self._corners for text, _ in one.lines)
-
-
-def _touch(item: Written, other: Written) -> bool:
-    """Return whether two words cover each other, or stand beside each other without a gap."""
-    near = item.geometry().adjusted(-APART, 0, APART, 0)
-    return not (item.is_empty or other.is_empty) and near.intersects(other.geometry())
+        return "\n".join(text for one in self._edges.corners for text, _ in one.lines)
 
 
 def _made(volume: Volume) -> list[str]:
