@@ -11,6 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
+from PySide6.QtWidgets import QScrollArea
+
 from app.session.store import list_sessions
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.author.feature import AuthorFeature
@@ -153,6 +155,11 @@ def debrief(gallery: Gallery) -> None:
     gallery.keep("debrief-student")
     for unfolded in (page.fold, page.details):  # an instructor's has no such button as the last
         unfolded.setChecked(True)
+    pause(0.3)
+    areas = page.findChildren(QScrollArea)
+    next(area for area in areas if area.isAncestorOf(page.details)).ensureWidgetVisible(
+        page.details
+    )
     gallery.keep("debrief-details")
     for unfolded in (page.fold, page.details):
         unfolded.setChecked(False)
