@@ -58,8 +58,9 @@ def board(
     instructor()
     found, _, _ = _board(course, group, folder)
     rows = board_rows(found)
-    lines = [joined("", (f"{row['pseudonym']:20} {row['exercise']:24} ", _cell(row)))
-             for row in rows]  # fmt: skip
+    lines = [
+        joined("", (f"{row['pseudonym']:20} {row['exercise']:24} ", _cell(row))) for row in rows
+    ]
     nothing = sentence("nobody and nothing to show: add students first")
     return Answer({"cells": rows}, lines or [nothing])
 

@@ -313,9 +313,10 @@ def _missing(header: Elements) -> str:
         absent = [name for name in absent if name not in ("BitsStored", "HighBit")]
     if not absent:
         return ""
-    return sentence(
-        "missing, without which its pixels cannot be told: {names}", names=listed(absent)
-    )
+    names = listed(absent)
+    if len(absent) == 1:
+        return sentence("{names} is missing, without which its pixels cannot be told", names=names)
+    return sentence("{names} are missing, without which its pixels cannot be told", names=names)
 
 
 def _format(header: Elements) -> PixelFormat:

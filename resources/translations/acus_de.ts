@@ -2976,8 +2976,12 @@
             <translation type="unfinished">pydicom ist geladen</translation>
         </message>
         <message>
-            <source>missing, without which its pixels cannot be told: {names}</source>
-            <translation type="unfinished">es fehlt, ohne das seine Bildpunkte nicht zu deuten sind: {names}</translation>
+            <source>{names} is missing, without which its pixels cannot be told</source>
+            <translation type="unfinished">{names} fehlt; ohne das sind seine Bildpunkte nicht zu deuten</translation>
+        </message>
+        <message>
+            <source>{names} are missing, without which its pixels cannot be told</source>
+            <translation type="unfinished">{names} fehlen; ohne sie sind seine Bildpunkte nicht zu deuten</translation>
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>

@@ -2976,8 +2976,12 @@
             <translation type="unfinished">pydicom est chargé</translation>
         </message>
         <message>
-            <source>missing, without which its pixels cannot be told: {names}</source>
-            <translation type="unfinished">il manque ce sans quoi ses pixels ne peuvent être interprétés : {names}</translation>
+            <source>{names} is missing, without which its pixels cannot be told</source>
+            <translation type="unfinished">{names} manque ; sans cela ses pixels ne peuvent être interprétés</translation>
+        </message>
+        <message>
+            <source>{names} are missing, without which its pixels cannot be told</source>
+            <translation type="unfinished">{names} manquent ; sans cela ses pixels ne peuvent être interprétés</translation>
         </message>
         <message>
             <source>PixelRepresentation is {representation}; it must be 0 or 1</source>

@@ -5,9 +5,9 @@ from itertools import pairwise
 import pytest
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
+from app.session.display_load import LONGEST_S, OVER_S, WAIT_S, BusyWatch, Load
 from app.session.machine import State
 from app.views.exercise.attempt_rail import AttemptRail
-from app.views.exercise.busy import LONGEST_S, OVER_S, WAIT_S, BusyWatch, Load
 from app.views.exercise.controller import LIGHT_MS, PERIOD_MS
 
 PERIOD = 0.016

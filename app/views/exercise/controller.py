@@ -15,6 +15,7 @@ from app.core.events import Event
 from app.core.rate_meter import RateMeter
 from app.exercises.parts import ViewName
 from app.planning.placement import PlacedPlan
+from app.session.display_load import BusyWatch, Load
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
 from app.session.pad.readings import hand_pose, needle_line
@@ -23,7 +24,6 @@ from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
 from app.views.exercise.axial_gauge import AxialGauge, axial_force, bone_crossed_mm
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.busy import BusyWatch, Load
 from app.views.exercise.enable_switch import enabling
 from app.views.exercise.energy_gauge import energy_figures
 from app.views.exercise.felt import force_limit

@@ -20,7 +20,7 @@ from app.exercises.schema import Exercise
 from app.exercises.skill import Practised, skill_of
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import declared, tr
+from app.views.kit.text import declared, literal, tr
 from app.views.shell.skill_place import Advance, SkillPlace
 
 if TYPE_CHECKING:
@@ -333,7 +333,7 @@ def _write(group: _SkillGroup, box: QRect) -> None:
     title, heading = skill_title(group.skill), group.heading
     side = Qt.TextElideMode.ElideRight
     heading.setText(heading.fontMetrics().elidedText(title, side, box.width()))
-    heading.setToolTip("" if heading.text() == title else title)
+    heading.setToolTip("" if heading.text() == title else literal(title))
     heading.setGeometry(box)
 
 
