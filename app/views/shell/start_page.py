@@ -366,8 +366,8 @@ class BigButton(QPushButton):
         metrics = QFontMetrics(theme.font_of(theme.FONT_PX, True))
         name = metrics.elidedText(self._name, Qt.TextElideMode.ElideRight, room)
         self.name.setText(name)
-        self.name.setToolTip(literal(self._name) if name != self._name else "")
-        self.setToolTip(self.name.toolTip())
+        for widget in (self.name, self):
+            widget.setToolTip(literal(self._name) if name != self._name else "")
 
 
 class NextPicture(QWidget):
