@@ -6,7 +6,6 @@ a record gives the same answer again; the skin's normal is the field's.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -19,47 +18,16 @@ from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.imaging.field.walking import directions
 from app.planning.errors import PlanError
 from app.planning.field_clearance import ClearField
-from app.planning.on_the_way import WayHindrance, hindrances
-from app.planning.paths import STEP_MM, Weights, crowding, points
+from app.planning.judged import WEIGHTS, JudgedPlan, Weights
+from app.planning.on_the_way import hindrances
+from app.planning.paths import STEP_MM, crowding, points
 from app.planning.tissues import along
 
 SKIN_MM: Final = 8.0
 """The skin is looked at so far around the entry: hairs, ribs and voxels do not turn its normal."""
 
-WEIGHTS: Final = Weights()
-"""As the map of entries weighs."""
-
 _AROUND: Final = 400
 _MOST_UNKNOWN: Final = 0.5
-
-
-@dataclass(frozen=True, slots=True)
-class JudgedPlan:
-    """What a planner says of one straight path.
-
-    Attributes:
-        points: 0 to 100 as the map of entries has them; 0 where the path must not be.
-        length_mm: of the path.
-        angle_deg: between path and the skin's normal, 0 straight in.
-        clear_mm: distance from the nearest that the path should not meet; 0 where it meets it,
-            infinite without any.
-        nearest: what that is, in words; empty without any.
-        nearest_mm: depth along the path at which it is nearest.
-        meets: bone, lung, vessels, gut and heart on the path, more than is allowed of them.
-        pleural_deg: between path and the pleura's normal; None where the lung is not entered.
-        is_long, is_flat: whether the path is longer, or lies flatter to the skin, than is allowed.
-    """
-
-    points: float
-    length_mm: float
-    angle_deg: float
-    clear_mm: float
-    nearest: str = ""
-    nearest_mm: float = 0.0
-    meets: tuple[WayHindrance, ...] = ()
-    pleural_deg: float | None = None
-    is_long: bool = False
-    is_flat: bool = False
 
 
 def judge_plan(

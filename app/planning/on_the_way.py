@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -10,40 +9,19 @@ from numpy.typing import ArrayLike
 
 from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.imaging.field.walking import holding, walk
-from app.planning.paths import Weights
-
-_WEIGHTS: Final = Weights()
+from app.planning.judged import WEIGHTS, WayHindrance
 
 MOST_MM: Final = {
-    TissueKind.BONE: _WEIGHTS.most_bone_mm,
-    TissueKind.LUNG: _WEIGHTS.most_lung_mm,
-    TissueKind.VESSEL: _WEIGHTS.most_vessel_mm,
-    TissueKind.GUT: _WEIGHTS.most_gut_mm,
-    TissueKind.HEART: _WEIGHTS.most_heart_mm,
+    TissueKind.BONE: WEIGHTS.most_bone_mm,
+    TissueKind.LUNG: WEIGHTS.most_lung_mm,
+    TissueKind.VESSEL: WEIGHTS.most_vessel_mm,
+    TissueKind.GUT: WEIGHTS.most_gut_mm,
+    TissueKind.HEART: WEIGHTS.most_heart_mm,
 }
 """So much of a way may lie in these without a word [mm]: as the map of entries blocks a path."""
 
 LEAST_CONFIDENCE: Final = 0.5
 """A label less sure than this is named all the same, as one that may be there."""
-
-
-@dataclass(frozen=True, slots=True)
-class WayHindrance:
-    """One tissue on the way.
-
-    Attributes:
-        name: of the tissue, as its field calls it.
-        kind: what it is.
-        depth_mm: along the way, from the entry to where it begins.
-        length_mm: of the way in it, all its stretches together.
-        is_sure: whether the field is.
-    """
-
-    name: str
-    kind: TissueKind
-    depth_mm: float
-    length_mm: float
-    is_sure: bool = True
 
 
 def hindrances(

@@ -31,6 +31,7 @@ from app.imaging.volume import Volume
 from app.planning.clearance import Field
 from app.planning.errors import PlanError
 from app.planning.field_clearance import ClearField
+from app.planning.judged import WEIGHTS, Weights
 from app.planning.limits import ReachLimits
 from app.planning.placement import Placement
 from app.planning.plan import Plan
@@ -125,36 +126,6 @@ class PathObstacle(StrEnum):
     HEART = "heart"
 
 
-@dataclass(frozen=True, slots=True)
-class Weights:
-    """What counts how much, and what is not allowed.
-
-    Attributes:
-        length, angle, clearance: weights of the parts of the cost.
-        longest_mm: path; the device's depth limit counts where it is shorter.
-        flattest_deg: angle between path and the skin's normal.
-        most_bone_mm: length of path through bone.
-        most_lung_mm, most_vessel_mm, most_gut_mm, most_heart_mm: through these, where a tissue
-            field tells of them and the target does not lie in them; looked at each millimetre.
-        pleura: weight of the angle at which the lung is entered that holds the target.
-        free_mm: structures further away than their warning distance by this cost nothing, nor do
-            bone, lung, vessels, gut and heart of the tissue field that are further away than this.
-    """
-
-    length: float = 1.0
-    angle: float = 1.0
-    clearance: float = 2.0
-    longest_mm: float = 120.0
-    flattest_deg: float = 65.0
-    most_bone_mm: float = 1.5
-    most_lung_mm: float = 1.5
-    most_vessel_mm: float = 0.5
-    most_gut_mm: float = 0.5
-    most_heart_mm: float = 0.5
-    pleura: float = 1.0
-    free_mm: float = 10.0
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class PathScores:
     """Scores of many paths to one target; arrays of shape (n,).
@@ -216,7 +187,7 @@ def score_paths(
     fields: Sequence[Field],
     placement: Placement,
     limits: ReachLimits,
-    weights: Weights = Weights(),
+    weights: Weights = WEIGHTS,
     progress: Progress | None = None,
     tissues: TissueField | None = None,
 ) -> PathScores:

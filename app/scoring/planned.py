@@ -8,7 +8,7 @@ from app.core.messages import sentence
 from app.scoring.errors import MetricNotAskedError
 
 if TYPE_CHECKING:
-    from app.planning.judged_plan import JudgedPlan
+    from app.planning.judged import JudgedPlan
     from app.scoring.trajectory import Trajectory
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.core.messages import sentence
-from app.planning.judged_plan import JudgedPlan
+from app.planning.judged import JudgedPlan
 from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError

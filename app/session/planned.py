@@ -14,8 +14,7 @@ from app.core.events import Event
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.planning.errors import PlanError
-from app.planning.judged_plan import WEIGHTS, JudgedPlan, judge_plan
-from app.planning.on_the_way import WayHindrance
+from app.planning.judged import WEIGHTS, JudgedPlan, WayHindrance
 from app.planning.placement import PlacedPlan
 
 KIND: Final = "plan"
@@ -28,6 +27,8 @@ def judged_plan_of(placed: PlacedPlan, field: TissueField | None) -> JudgedPlan 
     """Judge the path of an attempt; None where nothing can tell."""
     if field is None:
         return None
+    from app.planning.judged_plan import judge_plan  # computes: records are read without it
+
     with suppress(PlanError):
         return judge_plan(field, placed.plan.entry_mm, placed.plan.target_mm)
     return None

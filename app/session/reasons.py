@@ -16,7 +16,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
-from app.planning.judged_plan import JudgedPlan
+from app.planning.judged import JudgedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.met import Met
 from app.scoring.risks import RiskMark

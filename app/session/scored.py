@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
-from app.planning.judged_plan import JudgedPlan
+from app.planning.judged import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.scoring.met import Met
 from app.scoring.result import Score

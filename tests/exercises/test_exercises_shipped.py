@@ -12,7 +12,7 @@ from app.exercises.parts import TELLING, ViewName
 from app.exercises.scene import device_of, draft_of, plan_of
 from app.exercises.schema import Exercise
 from app.imaging.phantom.anatomy import anatomy
-from app.planning.judged_plan import JudgedPlan
+from app.planning.judged import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.planning.reach import reach

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scoring_attempts import Attempt, placed_plan
 
-from app.planning.judged_plan import JudgedPlan
+from app.planning.judged import JudgedPlan
 from app.planning.placement import PatientOrientation, Placement
 from app.scoring import metrics
 from app.scoring.errors import MetricUnavailableError, UnknownMetricError

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from app.commands import build
 from app.core.progress import Cancelled, Progress
-from app.planning.judged_plan import JudgedPlan
+from app.planning.judged import JudgedPlan
 from app.simulation.trainee import ScriptPhase
 from app.studies.adversary import attack_exercises
 from app.studies.attacks.attack import GENES, HONEST, RANGES, Attack, honest_genes

@@ -11,7 +11,7 @@ from app.views.kit.text import tr, translated
 from app.views.plan.editor import PlanEditor
 
 if TYPE_CHECKING:
-    from app.planning.on_the_way import WayHindrance
+    from app.planning.judged import WayHindrance
 
 
 class WayState(Enum):
