@@ -143,7 +143,7 @@ def test_the_pacs_browser_shows_nobodys_name_before_a_room(application, destroy,
     words = " ".join(item.text(column) for column in range(item.columnCount()))
     assert "mith" not in words.lower()
     assert "4711" not in words
-    assert "20260101" in words
+    assert "2026-01-01" in words
     assert "CHEST" in words
 
 
