@@ -215,7 +215,6 @@ class Trainer:
             hand: what holds the needle, one of `conditions.HANDS`; a run that was built for one
                 hand keeps it.
 
-
         Raises:
             IllegalTransitionError: if an attempt is running.
             NotReadyError: if loop and ticker were opened but the loop has not run its first tick,
