@@ -224,6 +224,11 @@ def test_a_student_has_at_most_four_menus_and_no_tabs(student):
     assert not [one.text() for one in names if one.isVisible()]
 
 
+def test_a_student_switches_no_camera_pictures_that_the_window_does_not_have(student):
+    shown = {"Camera pictures", "3D view"} & set(reachable(student))
+    assert shown == {"3D view"}
+
+
 def test_no_technical_word_meets_a_student_on_his_way(student, patient, settle):
     assert forbidden(student) == []
     student.show_patient(patient)

@@ -11,11 +11,11 @@ from PySide6.QtWidgets import QMenu
 from app.exercises.locks import Lock
 from app.exercises.parts import ViewName
 from app.views.exercise.conductor import Conductor
-from app.views.kit.roles import STAFF
+from app.views.kit.roles import EVERYBODY, STAFF
 from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor
 from app.views.reading.layouts import LAYOUTS, layout_title
-from app.views.reading.lock_words import view_title, why_locked
+from app.views.reading.lock_words import CAMERA_ROLES, view_title, why_locked
 from app.views.reading.workspace import WorkspacePage
 from app.views.shell.projector import Projector
 from app.views.shell.shell import Shell
@@ -71,7 +71,7 @@ class ViewMenu:
         moves_hub = workspace.bullseye.source.set_moves_hub
         with shell.made_for(STAFF):
             self.hub = self._switch(tr("The hand moves the hub, not the tip"), "", moves_hub)
-        self.shown = self._shown_menu(menu.addMenu(tr("Shown by the exercise")))
+        self.shown = self._shown_menu(shell)
         self._entry(tr("Crosshair to target"), "", self.cursor_to_target)
         with shell.made_for(STAFF):
             needle = menu.addMenu(tr("Needle's planes"))
@@ -165,11 +165,13 @@ class ViewMenu:
         self._left_handed.toggled.connect(workspace.set_left_handed)
         return actions
 
-    def _shown_menu(self, menu: QMenu) -> dict[ViewName, QAction]:
+    def _shown_menu(self, shell: Shell) -> dict[ViewName, QAction]:
         conductor, actions = self._conductor, {}
+        menu = shell.menu(tr("&View"), tr("Shown by the exercise"))
         menu.setToolTipsVisible(True)
         for view in ViewName:
-            action = menu.addAction(view_title(view))
+            with shell.made_for(CAMERA_ROLES if view is ViewName.CAMERAS else EVERYBODY):
+                action = menu.addAction(view_title(view))
             action.setCheckable(True)
             action.triggered.connect(lambda on, view=view: conductor.show_view(view, on))
             actions[view] = action
