@@ -9,24 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from app.core.arrays import FloatArray
-from app.imaging.field.tissue_field import STEPS_PER_MM, FieldTissue, TissueField, TissueKind
-from app.imaging.field.walking import holding
-from app.planning.tissues import SMALL_VESSELS
-
-AVOIDED: Final = (
-    TissueKind.BONE,
-    TissueKind.LUNG,
-    TissueKind.VESSEL,
-    TissueKind.GUT,
-    TissueKind.HEART,
-)
+from app.imaging.field.tissue_field import STEPS_PER_MM, FieldTissue, TissueField
+from app.planning.tissues import avoided_codes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,12 +64,7 @@ class ClearField:
             points_mm: LPS, shape (n, 3), one at least.
             room_mm: distances are known up to this.
         """
-        held = set(holding(field, target_mm).tolist())
-        codes = tuple(
-            tissue.code
-            for tissue in field.of_kind(*AVOIDED)
-            if tissue.name not in SMALL_VESSELS and tissue.code not in held
-        )
+        codes = avoided_codes(field, target_mm)
         ijk = points_mm @ field.inverse_mm[:3, :3].T + field.inverse_mm[:3, 3]
         room = np.ceil(room_mm / field.spacing_mm)
         low, high = np.floor(ijk.min(axis=0) - room), np.ceil(ijk.max(axis=0) + room) + 1.0

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.imaging.field.tissue_field import TissueField, TissueKind
-from app.imaging.field.walking import holding, walk
+from app.imaging.field.walking import walk
 from app.planning.judged import WEIGHTS, WayHindrance
+from app.planning.tissues import avoided_codes
 
 MOST_MM: Final = {
     TissueKind.BONE: WEIGHTS.most_bone_mm,
@@ -29,18 +30,18 @@ def hindrances(
 ) -> tuple[WayHindrance, ...]:
     """Return what is on the way, the first that the needle meets first.
 
-    What holds the target is none: there the needle has to go.
+    What holds the target is none, there the needle has to go; nor are small vessels.
 
     Args:
         field: of the patient.
         entry_mm: on the skin, LPS, shape (3,).
         target_mm: LPS, shape (3,).
     """
-    wanted = set(holding(field, target_mm).tolist())
+    avoided = avoided_codes(field, target_mm, *MOST_MM)
     begins: dict[int, float] = {}
     lengths: dict[int, float] = {}
     for part in walk(field, np.array([entry_mm, target_mm], np.float64)):
-        if part.code not in wanted and field.tissues[part.code].kind in MOST_MM:
+        if part.code in avoided:
             begins.setdefault(part.code, part.begin_mm)
             lengths[part.code] = lengths.get(part.code, 0.0) + part.length_mm
     met = [

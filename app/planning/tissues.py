@@ -6,11 +6,12 @@ boundary within. For one path there is `imaging.field.walking`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray
 from app.imaging.field.tissue_field import UNKNOWN, TissueField, TissueKind
@@ -18,6 +19,33 @@ from app.imaging.field.walking import holding
 
 SMALL_VESSELS: Final = frozenset({"small vessel", "lung vessel"})
 """Names of vessels that a needle may meet."""
+
+AVOIDED: Final = (
+    TissueKind.BONE,
+    TissueKind.LUNG,
+    TissueKind.VESSEL,
+    TissueKind.GUT,
+    TissueKind.HEART,
+)
+"""What no needle should meet, unless the target lies in it."""
+
+
+def avoided_codes(field: TissueField, target_mm: ArrayLike, *kinds: TissueKind) -> tuple[int, ...]:
+    """Return the codes of a field that a path to a target should not meet.
+
+    Those of the kinds, less what holds the target and vessels that are too small to matter.
+
+    Args:
+        field: of the patient.
+        target_mm: LPS, shape (3,).
+        kinds: all that are `AVOIDED` where none is named.
+    """
+    held = set(holding(field, target_mm).tolist())
+    return tuple(
+        tissue.code
+        for tissue in field.of_kind(*(kinds or AVOIDED))
+        if tissue.name not in SMALL_VESSELS and tissue.code not in held
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,24 +81,21 @@ def along(
     """
     count, steps, _ = points_mm.shape
     codes = _nearest(field, points_mm.reshape(-1, 3)).reshape(count, steps)
-    held = set(holding(field, target_mm).tolist())
 
-    def through(kind: TissueKind, all_of_it: bool = False) -> FloatArray:
-        wanted = [
-            tissue.code
-            for tissue in field.of_kind(kind)
-            if tissue.name not in SMALL_VESSELS and (all_of_it or tissue.code not in held)
-        ]
+    def through(wanted: Sequence[int]) -> FloatArray:
         result: FloatArray = np.isin(codes, wanted).mean(axis=1) * length_mm
         return result
 
+    def meets(kind: TissueKind) -> FloatArray:
+        return through(avoided_codes(field, target_mm, kind))
+
     return PathTissues(
-        bone_mm=through(TissueKind.BONE),
-        lung_mm=through(TissueKind.LUNG),
-        vessel_mm=through(TissueKind.VESSEL),
-        gut_mm=through(TissueKind.GUT),
-        heart_mm=through(TissueKind.HEART),
-        unknown_mm=through(TissueKind.UNKNOWN, all_of_it=True),
+        bone_mm=meets(TissueKind.BONE),
+        lung_mm=meets(TissueKind.LUNG),
+        vessel_mm=meets(TissueKind.VESSEL),
+        gut_mm=meets(TissueKind.GUT),
+        heart_mm=meets(TissueKind.HEART),
+        unknown_mm=through([tissue.code for tissue in field.of_kind(TissueKind.UNKNOWN)]),
         pleural_deg=_pleural(field, points_mm, codes),
     )
 

@@ -50,3 +50,9 @@ def test_a_way_beside_the_rib_meets_nothing_and_what_holds_the_target_is_none():
 
 def test_less_of_a_bone_than_the_map_of_entries_lets_pass_is_not_named():
     assert met(slabs(("fat", 12), ("rib", 1), ("liver", 67))) == ()
+
+
+@pytest.mark.parametrize("name", ["small vessel", "lung vessel"])
+def test_a_vessel_that_is_too_small_for_the_map_of_entries_hinders_no_plan(name, monkeypatch):
+    monkeypatch.setitem(KINDS, name, TissueKind.VESSEL)
+    assert met(slabs(("fat", 12), (name, 6), ("liver", 62))) == ()
