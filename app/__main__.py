@@ -7,7 +7,7 @@ from typing import Final
 
 from app.commands import build
 from app.commands.output import printable_output
-from app.commands.tongue import local
+from app.commands.reader_language import local
 from app.core import paths
 from app.core.errors import AcusError
 from app.core.exits import Exit

@@ -36,7 +36,7 @@ from app.scoring.rows import REACHING
 from app.scoring.tolerance import Bands
 
 EXERCISES: Final = ("first-insertion", "kidney", "breathing-liver")
-CAREFUL, HASTY = "careful", "mouse"
+CAREFUL, HASTY = "careful", "hasty"
 KEPT_SHARE: Final = 80.0
 """So many of a hundred careful attempts are an expert's."""
 
@@ -65,8 +65,7 @@ def fitted(careful: Sequence[float], hasty: Sequence[float]) -> Bands | None:
         return None
     wrong = [(good > cut).mean() + (bad <= cut).mean() for cut in cuts]
     least = np.flatnonzero(np.isclose(wrong, min(wrong)))
-    between = cuts[least[len(least) // 2]] if len(least) > 1 else cuts[least[0]]
-    passing = float(between)
+    passing = float(cuts[least[len(least) // 2]])
     knots = [_rounded(one) for one in (expert, 0.5 * (expert + passing), passing, zero)]
     if min(wrong) >= 0.5 or not all(a < b for a, b in pairwise(knots)):
         return None

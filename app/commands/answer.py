@@ -13,8 +13,8 @@ from typing import Annotated, Any, TypeVar
 import typer
 from typer.core import TyperCommand
 
+from app.commands.reader_language import tell
 from app.commands.shown import Shown, lines
-from app.commands.tongue import tell
 from app.core.exits import Exit
 
 Function = TypeVar("Function", bound=Callable[..., Any])

@@ -23,8 +23,8 @@ from app.commands.calibrate_parts import (
     with_progress,
 )
 from app.commands.calibrate_parts import Images as Folder
+from app.commands.reader_language import tell, template
 from app.commands.shown import Each
-from app.commands.tongue import tell, template
 from app.core.messages import sentence
 
 if TYPE_CHECKING:

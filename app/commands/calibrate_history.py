@@ -7,8 +7,8 @@ import typer
 
 from app.commands.answer import Answer
 from app.commands.calibrate_parts import app, lens_named
+from app.commands.reader_language import template
 from app.commands.shown import Each
-from app.commands.tongue import template
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 

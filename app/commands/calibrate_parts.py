@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from app.commands.answer import Commands, wants_json
-from app.commands.tongue import local
+from app.commands.reader_language import local
 from app.core.messages import sentence
 
 if TYPE_CHECKING:

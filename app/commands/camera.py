@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.reader_language import template
 from app.commands.shown import Each
-from app.commands.tongue import template
 from app.core.messages import listed, sentence
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from app.commands.answer import Answer
-from app.commands.tongue import local
+from app.commands.reader_language import local
 from app.core.messages import joined, sentence
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ import typer
 from typer.core import TyperGroup
 
 from app.commands.answer import Answer, Commands
+from app.commands.reader_language import template
 from app.commands.shown import Each
-from app.commands.tongue import template
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from app.commands import completion
-from app.commands.tongue import language, local, tell
+from app.commands.reader_language import language, local, tell
 from app.core import plugin_folders
 from app.core.errors import AcusError
 from app.core.files import read_at_most

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from app.commands.tongue import local
+from app.commands.reader_language import local
 from app.core.messages import sentence
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
+from app.commands.reader_language import template
 from app.commands.shown import Each
-from app.commands.tongue import template
 from app.core.messages import joined, sentence, sentence_of
 
 if TYPE_CHECKING:

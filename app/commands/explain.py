@@ -6,7 +6,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer
-from app.commands.tongue import language, local, tell
+from app.commands.reader_language import language, local, tell
 from app.core.messages import joined, sentence
 
 _TICK_NS = 1e9 / 1000.0

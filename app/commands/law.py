@@ -5,8 +5,8 @@ from typing import Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.reader_language import template
 from app.commands.shown import Each
-from app.commands.tongue import template
 
 app = Commands(help="The force laws, the program's and your own.")
 

@@ -8,8 +8,8 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor, secret
+from app.commands.reader_language import local, template
 from app.commands.shown import Each
-from app.commands.tongue import local, template
 from app.core.messages import counted, joined, listed, sentence
 
 Pseudonym = Annotated[

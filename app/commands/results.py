@@ -9,8 +9,8 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
+from app.commands.reader_language import template
 from app.commands.shown import Each
-from app.commands.tongue import template
 from app.core.messages import Sentence, counted, joined, sentence
 
 if TYPE_CHECKING:

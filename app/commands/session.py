@@ -10,7 +10,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import PASSWORD, instructor, see
-from app.commands.tongue import cell, known, language, local, tell, template
+from app.commands.reader_language import cell, known, language, local, tell, template
 from app.core.messages import counted, joined, sentence
 from app.core.words import printable
 

@@ -21,7 +21,7 @@ from datetime import datetime
 from string import Formatter
 from typing import Any, TypeAlias
 
-from app.commands.tongue import language
+from app.commands.reader_language import language
 
 Shown: TypeAlias = "str | Each | Sequence[str | Each]"
 """A template of a line, rows, or several of them."""

@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.reader_language import local, template
 from app.commands.shown import Each
-from app.commands.tongue import local, template
 from app.core.messages import sentence
 
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]

@@ -7,7 +7,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer
-from app.commands.tongue import tell
+from app.commands.reader_language import tell
 from app.core.messages import sentence
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.tongue import template
+from app.commands.reader_language import template
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 

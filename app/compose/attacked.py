@@ -28,7 +28,7 @@ from app.core.progress import Progress
 from app.core.units import MILLIMETRE
 from app.exercises.library import load_exercise
 from app.exercises.locks import Lock
-from app.exercises.parts import LayersFrom, OwnPlan
+from app.exercises.parts import LayersFrom
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.tissue import with_tissue
 from app.imaging.body import find_body, nearest_skin
@@ -93,7 +93,7 @@ class Attacked:
                     name=name,
                 )
             )
-        self._plans_itself = isinstance(self._exercise.plan, OwnPlan)
+        self._plans_itself = self._exercise.is_own_plan
         self._body = find_body(self._volume) if self._plans_itself else None
         self._ready: OrderedDict[object, tuple[Trials, PlacedPlan]] = OrderedDict()
         self._of(Attack())

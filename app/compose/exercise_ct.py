@@ -5,7 +5,6 @@ from __future__ import annotations
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.errors import ExerciseError
-from app.exercises.parts import OwnPlan
 from app.exercises.schema import Exercise
 from app.imaging.field import TissueField
 from app.imaging.volume import Volume
@@ -94,7 +93,7 @@ def load_field(
         step = progress.part(0.2 * number / len(exercise.structures), 0.2)
         structures += list(read_structures(part.file, volume, step))
     entry = np.rint(plan.entry_mm / ENTRY_STEP_MM) * ENTRY_STEP_MM
-    whole = isinstance(exercise.plan, OwnPlan) or not volume.contains(entry)
+    whole = exercise.is_own_plan or not volume.contains(entry)
     reach = REACH_MM + ENTRY_STEP_MM
     return field_of(
         volume, structures, None if whole else entry, reach, progress=progress.part(0.2, 1.0)

@@ -12,7 +12,7 @@ from app.compose.exercise_ct import load_field, read_ct
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.errors import ExerciseError
-from app.exercises.parts import LayersFrom, OwnPlan, TissueSource
+from app.exercises.parts import LayersFrom, TissueSource
 from app.exercises.scene import device_of, draft_of, placed_plan_of, plan_of
 from app.exercises.schema import Exercise
 from app.exercises.tissue import with_layers_met, with_tissue
@@ -43,7 +43,7 @@ def trial_plan(exercise: Exercise) -> Plan:
     Raises:
         ExerciseError: if the student plans on a CT that is no phantom.
     """
-    if isinstance(exercise.plan, OwnPlan) and exercise.ct.phantom is not None:
+    if exercise.is_own_plan and exercise.ct.phantom is not None:
         return plan_of(exercise.model_copy(update={"plan": "phantom_default"}))
     return plan_of(exercise)
 
@@ -154,7 +154,7 @@ class ExercisePatient:
         from_ct = (
             exercise.layers_from is LayersFrom.CT and exercise.tissue is not TissueSource.FIELD
         )
-        if from_ct and not isinstance(exercise.plan, OwnPlan):  # nobody's own plan has any
+        if from_ct and not exercise.is_own_plan:  # nobody's own plan has any
             exercise = with_tissue(exercise, self.volume, self.placed.plan)
         if exercise.tissue is TissueSource.LAYERS:
             return exercise, None, _HAS_LAYERS
@@ -168,7 +168,7 @@ class ExercisePatient:
 
 
 def _any_plan(exercise: Exercise) -> Plan:
-    if not isinstance(exercise.plan, OwnPlan) or exercise.ct.phantom is not None:
+    if not exercise.is_own_plan or exercise.ct.phantom is not None:
         return trial_plan(exercise)
     target = np.array(draft_of(exercise).target_mm)
     return Plan(target - (0.0, 100.0, 0.0), target, exercise.id)

@@ -185,7 +185,7 @@ def _wheel(
             yield
 
 
-def perfect_mouse(desk: Desk) -> Moves:
+def hasty_hand(desk: Desk) -> Moves:
     """Drag the dot straight to the middle and wheel in until the depth is right: no second look."""
     yield from _wait(0.5)
     for _ in range(4):
@@ -254,7 +254,7 @@ def _await_breath(desk: Desk) -> Moves:
 
 
 HANDS: Final[dict[str, Callable[[Desk], Moves]]] = {
-    "mouse": perfect_mouse,
+    "hasty": hasty_hand,
     "careful": careful_hand,
 }
 """Both by name."""

@@ -16,7 +16,7 @@ import numpy as np
 
 from app.core.messages import sentence
 from app.exercises.errors import ExerciseError
-from app.exercises.parts import OwnPlan, TipShape, TissueSource
+from app.exercises.parts import TipShape, TissueSource
 from app.exercises.tissue_choice import Needles, choose
 from app.imaging.field.tissue_field import TissueKind
 from app.simulation.plan import TISSUE_FIELD
@@ -145,7 +145,7 @@ def within_reach(exercise: Exercise, needles: Needles) -> tuple[Reachable, ...]:
     """Return the tissues that a needle can meet, by the table of the field."""
     least: dict[int, float | None] = {}
     field = needles.field
-    if isinstance(exercise.plan, OwnPlan):
+    if exercise.is_own_plan:
         least = dict.fromkeys(np.unique(field.labels).tolist(), None)
     else:
         for _, parts in needles:
@@ -215,7 +215,7 @@ def _reasons(exercise: Exercise, needles: Needles | None) -> dict[str, str]:
 
 def _field_reason(exercise: Exercise, needles: Needles) -> str:
     """Return what makes layers along the path too little; empty where they are enough."""
-    if isinstance(exercise.plan, OwnPlan):
+    if exercise.is_own_plan:
         return sentence("the student chooses the entry: no layers lie along all paths")
     choice = choose(exercise, needles)
     if choice.source is not TissueSource.FIELD:

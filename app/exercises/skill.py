@@ -16,7 +16,6 @@ from app.core import paths, plugin_folders
 from app.core.configuration import parse_yaml, read_text
 from app.core.errors import ConfigurationError
 from app.exercises.guidance import GuidanceMode
-from app.exercises.parts import OwnPlan
 from app.exercises.schema import Exercise
 from app.mechanisms.profile.device import DEFAULT_KIND
 
@@ -38,7 +37,7 @@ def skill_of(exercise: Exercise) -> Practised:
     """Return the skill that an exercise practises most."""
     if exercise.touch is not None or _kind(exercise.device) != DEFAULT_KIND:
         return Practised.MACHINE
-    if isinstance(exercise.plan, OwnPlan) or exercise.guidance_mode is GuidanceMode.CONTROL_CT:
+    if exercise.is_own_plan or exercise.guidance_mode is GuidanceMode.CONTROL_CT:
         return Practised.PLAN
     if KEPT_CLEAR in exercise.laws or any(part.risks for part in exercise.structures):
         return Practised.CLEARANCE

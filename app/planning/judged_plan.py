@@ -18,7 +18,7 @@ from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.imaging.field.walking import directions
 from app.planning.errors import PlanError
 from app.planning.field_clearance import ClearField
-from app.planning.judged import WEIGHTS, JudgedPlan, Weights
+from app.planning.judged import WEIGHTS, JudgedPlan
 from app.planning.on_the_way import hindrances
 from app.planning.paths import STEP_MM, crowding, points
 from app.planning.tissues import along
@@ -30,16 +30,15 @@ _AROUND: Final = 400
 _MOST_UNKNOWN: Final = 0.5
 
 
-def judge_plan(
-    field: TissueField, entry_mm: ArrayLike, target_mm: ArrayLike, weights: Weights = WEIGHTS
-) -> JudgedPlan:
-    """Judge a straight path.
+def judge_plan(field: TissueField, entry_mm: ArrayLike, target_mm: ArrayLike) -> JudgedPlan:
+    """Judge a straight path as the map of entries weighs.
+
+    The device's own limits of depth and tilt are no part of it: an attempt begins only within.
 
     Args:
         field: of the patient.
         entry_mm: on the skin, LPS, shape (3,).
         target_mm: LPS, shape (3,).
-        weights: what counts how much, and what is not allowed.
 
     Raises:
         PlanError: if nobody knows what half of the path goes through, or which way the skin faces.
@@ -51,7 +50,7 @@ def judge_plan(
     tissues = along(field, target, places[None], np.array([length]))
     if tissues.unknown_mm[0] > _MOST_UNKNOWN * length:
         raise PlanError(sentence("nobody labelled what most of the planned path goes through"))
-    room = ClearField.about(field, target, places, weights.free_mm)
+    room = ClearField.about(field, target, places, WEIGHTS.free_mm)
     clear = room.of(places[None])
     clear_mm, code = float(clear.clear_mm[0]), int(clear.code[0])
     meets = hindrances(field, entry, target)
@@ -62,12 +61,12 @@ def judge_plan(
     score = points(
         np.array([length]),
         np.array([angle]),
-        crowding(clear.clear_mm, weights),
+        crowding(clear.clear_mm, WEIGHTS),
         pleura,
-        weights,
-        weights.longest_mm,
+        WEIGHTS,
+        WEIGHTS.longest_mm,
     )
-    is_long, is_flat = length > weights.longest_mm, angle > weights.flattest_deg
+    is_long, is_flat = length > WEIGHTS.longest_mm, angle > WEIGHTS.flattest_deg
     blocked = bool(meets) or is_long or is_flat
     return JudgedPlan(
         points=0.0 if blocked else float(score[0]),

@@ -8,13 +8,14 @@ from typing import Final
 from app.core.errors import AcusError
 from app.exercises.drill import DrillKind
 from app.exercises.guidance import Purpose
+from app.exercises.parts import OF_OWN_PLANS
 from app.exercises.schema import Exercise
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.result import Score
 from app.session.along_path import AlongPath
 from app.session.conditions import EXERCISE_FILE
 from app.session.machine import State
-from app.session.reasons import ACROSS, ALONG, PLANS, AttemptEvidence, pushed_outside
+from app.session.reasons import ACROSS, ALONG, AttemptEvidence, pushed_outside
 from app.session.recording import Recording
 
 _TIMES: Final = frozenset({"total_time", "aligning_time"})
@@ -48,7 +49,7 @@ def drill_for(
     if exercise.touch is not None:
         return DrillKind.REPEAT
     metric, way = score.losses[0][1].name, past.way
-    if metric in PLANS:  # a drill is given its plan: what is to be practised is the whole
+    if metric in OF_OWN_PLANS:  # a drill is given its plan: what is to be practised is the whole
         return None
     if metric == "breath_offset" or (metric in ACROSS | ALONG and pushed_outside(past) is not None):
         return DrillKind.BREATH

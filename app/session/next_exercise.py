@@ -215,9 +215,7 @@ def _fits(item: Exercise, in_course: Sequence[str]) -> bool:
 
 def _passed(before: Sequence[Indexed]) -> set[str]:
     """Exercises that a person passed, in any version; none by a script or altered afterwards."""
-    return {
-        one.exercise for one in before if one.passed and one.counts and one.verdict != "altered"
-    }
+    return {one.exercise for one in before if one.passed and one.counts}
 
 
 def _in_a_row(exercise: str, before: Sequence[Indexed]) -> int:

@@ -15,6 +15,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
+from app.exercises.parts import OF_OWN_PLANS
 from app.imaging.field.tissue_field import TissueKind
 from app.planning.judged import JudgedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
@@ -63,7 +64,6 @@ ENDED_ASIDE: Final = frozenset({"lateral_error", "planned_target_error", "target
 
 FORCE: Final = frozenset({"peak_force", "mean_force", "guidance_work", "saturation"})
 RISKS: Final = frozenset({"risk_breach", "risk_distance", "risk_time"})
-PLANS: Final = frozenset({"plan_score", "plan_clearance"})
 STAGES: Final = {
     "aligning_time": State.ALIGNING,
     "insertion_time": State.INSERTING,
@@ -143,7 +143,7 @@ def reasons(metric: str, past: AttemptEvidence) -> tuple[str, ...]:
         parts.append(_risk)
     if metric in ("control_scans", "notional_dose"):
         parts.append(_scans)
-    if metric in PLANS and past.planned is not None:
+    if metric in OF_OWN_PLANS and past.planned is not None:
         return plan_sentences(past.planned)
     kinds = TISSUES.get(metric, ())
     tissues = _tissues(past, kinds) if kinds else ()

@@ -33,7 +33,7 @@ from app.device.control.law import KIND as LAWS
 from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.library import profile_names
 from app.exercises.locks import Lock
-from app.exercises.parts import TELLING, LayerPart, OwnPlan, ViewName
+from app.exercises.parts import TELLING, LayerPart, ViewName
 from app.exercises.scene import plan_of
 from app.imaging.structures.structure import StructureSet
 from app.imaging.window import PRESETS
@@ -1260,7 +1260,7 @@ class ReviewPage(Form):
         from app.exercises.tissue import bone_before  # scipy
 
         exercise = self.editor.exercise
-        if exercise is None or isinstance(exercise.plan, OwnPlan):
+        if exercise is None or exercise.is_own_plan:
             return ""
         with suppress(AcusError):
             length = plan_of(exercise).length_mm

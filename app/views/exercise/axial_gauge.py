@@ -6,7 +6,7 @@ from math import isfinite
 from typing import Any, Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core import state_vector as sv
@@ -127,7 +127,7 @@ class AxialGauge(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         large, height = self._letters(), self.height()
         left = _NUMBER_WIDTH * 0.6 * large
-        painter.setFont(_font(painter, large, bold=True))
+        painter.setFont(theme.font_of(large, bold=True))
         painter.setPen(QColor(theme.TEXT))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         painter.drawText(QRectF(0, 0, left, height), flags, self.number)
@@ -136,7 +136,7 @@ class AxialGauge(QWidget):
         )
         if self.width() < WORDS_FROM_PX * theme.scale():
             return  # cut off they would say nothing; the side of the bar says the same
-        painter.setFont(_font(painter, theme.SMALL_PX))
+        painter.setFont(theme.font_of(theme.SMALL_PX))
         painter.setPen(QColor(theme.TEXT))
         above = QRectF(left + 12, 0, self.width() - left - 16, height - _BAR - 4)
         words = painter.fontMetrics().elidedText(
@@ -164,10 +164,3 @@ class AxialGauge(QWidget):
 
     def _height(self) -> int:
         return round(NUMBER_PX * theme.scale()) + 12
-
-
-def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
-    font = QFont(painter.font())
-    font.setPixelSize(pixels)
-    font.setBold(bold)
-    return font

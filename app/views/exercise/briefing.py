@@ -21,7 +21,6 @@ from PySide6.QtWidgets import (
 
 from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import HandName, Lock
-from app.exercises.parts import OwnPlan
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
 from app.scoring.metrics import available
@@ -335,7 +334,7 @@ class BriefingPage(QWidget):
         self.set_allowance(AttemptsLeft())
         self.skip.setChecked(False)
         self.skip.setVisible(exercise.purpose is Purpose.PRACTICE)
-        own = isinstance(exercise.plan, OwnPlan)
+        own = exercise.is_own_plan
         self.begin.setText(tr("Begin to plan (Enter)") if own else tr("Begin (Enter)"))
         self.look.setVisible(not own)
         self.show_me.setEnabled(not own)

@@ -17,7 +17,7 @@ from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.guidance import Purpose
 from app.exercises.locks import HandName, Lock
-from app.exercises.parts import TELLING, OwnPlan, ViewName
+from app.exercises.parts import TELLING, ViewName
 from app.exercises.scene import device_of, draft_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
@@ -485,7 +485,7 @@ class Conductor(QObject):
         try:
             if self.exercise is not None and self.fits(patient):
                 draft, placement = draft_of(self.exercise), self.exercise.placement.placement()
-                own = isinstance(self.exercise.plan, OwnPlan)
+                own = self.exercise.is_own_plan
         except AcusError as error:
             self.failed.emit(error)
         self._editor.set_keeps_target(False)

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import QSplitter
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exercises.guidance import StartingDial, starting_dial
-from app.exercises.parts import OwnPlan
 from app.exercises.scene import draft_of
 from app.exercises.schema import Exercise
 from app.planning.draft import DraftPlan
@@ -191,7 +190,7 @@ class ExerciseFeature(Feature):
     def _take_once_asked(self, exercise: Exercise) -> None:
         """Take an exercise on the patient who is shown; the plan of the same one may stay."""
         taken, plan = self._conductor.exercise, self._editor
-        own = isinstance(exercise.plan, OwnPlan)
+        own = exercise.is_own_plan
         if exercise.drill is not None and _same_points(plan.edit.draft, draft_of(exercise)):
             self._take_here(exercise)  # nothing is lost: its plan is the one that is shown
             self.noted.emit(translated(exercise.description))
@@ -253,7 +252,7 @@ class ExerciseFeature(Feature):
 
     def _show(self, begun: Exercise | None) -> None:
         """Begin means begin: go to the attempt, or to what is to be planned or was only opened."""
-        if begun is None or isinstance(begun.plan, OwnPlan):
+        if begun is None or begun.is_own_plan:
             self._shell.show_workspace()
         else:
             self._shell.show_panel(self._panel)

@@ -17,7 +17,6 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, QSizeF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFocusEvent,
-    QFont,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -85,7 +84,7 @@ def paint_hidden(painter: QPainter, area: PadArea, words: str) -> None:
     box = QRectF(area.centre.x() - half, area.centre.y() - half, 2 * half, 2 * half)
     flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
     for pixels in range(theme.FONT_PX, SMALLEST_PX - 1, -1):
-        painter.setFont(_font(painter, pixels))
+        painter.setFont(theme.font_of(pixels))
         if box.contains(painter.boundingRect(box, flags, words)):
             painter.drawText(box, flags, words)
             return
@@ -166,7 +165,7 @@ def _ring_name(
         Whether there was room.
     """
     for pixels in range(theme.SMALL_PX, SMALLEST_PX - 1, -1):
-        painter.setFont(_font(painter, pixels))
+        painter.setFont(theme.font_of(pixels))
         metrics = painter.fontMetrics()
         size = QSizeF(metrics.horizontalAdvance(name) + 4.0, float(metrics.height()))
         box = free_corner(area, radius, size, taken)
@@ -229,20 +228,13 @@ def is_inside(box: QRectF, area: PadArea) -> bool:
 
 
 def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:
-    painter.setFont(_font(painter, theme.FONT_PX + 3, bold=True))
+    painter.setFont(theme.font_of(theme.FONT_PX + 3, bold=True))
     painter.setPen(QColor(theme.TEXT))
     reach = area.radius + 0.5 * theme.FONT_PX + _BESIDE
     for text, (x, y) in zip(letters, ((-1, 0), (1, 0), (0, -1), (0, 1)), strict=True):
         centre = area.centre + QPointF(reach * x, reach * y)
         box = QRectF(centre.x() - 24, centre.y() - 12, 48, 24)
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-
-
-def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
-    font = QFont(painter.font())
-    font.setPixelSize(pixels)
-    font.setBold(bold)
-    return font
 
 
 TILT_STEP: Final = radians(0.2)

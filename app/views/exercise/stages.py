@@ -3,7 +3,7 @@
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.session.machine import State
@@ -169,11 +169,11 @@ class Steps(Stages):
         if here and self.ring.turns:
             self.ring.draw(painter, QRectF(centre.x() - 10, 4, 20, 20))
             sign = ""
-        painter.setFont(_font(painter, 11, True))
+        painter.setFont(theme.font_of(11, True))
         painter.setPen(QColor(colour))
         disc = QRectF(centre.x() - 10, 4, 20, 20)
         painter.drawText(disc, Qt.AlignmentFlag.AlignCenter, sign)
-        painter.setFont(_font(painter, theme.SMALL_PX, here))
+        painter.setFont(theme.font_of(theme.SMALL_PX, here))
         painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
         name = state_word(State.ABORTED) if here and aborted else self.step_word(state)
         name = tr("Paused") if paused else name
@@ -181,10 +181,3 @@ class Steps(Stages):
             name = tr("Pull out")  # what fits below a step
         top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
-
-
-def _font(painter: QPainter, pixels: int, bold: bool) -> QFont:
-    font = QFont(painter.font())
-    font.setPixelSize(pixels)
-    font.setBold(bold)
-    return font

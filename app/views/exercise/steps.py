@@ -14,7 +14,7 @@ from app.session.transitions import PauseCause
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, number, tr
+from app.views.kit.text import listing, literal, number, tr
 from app.views.slices.pace import Unhurried
 
 
@@ -57,7 +57,7 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
     inwards = tr(" (wheel away from you)") if by_mouse else ""
     outwards = tr(" (wheel towards you)") if by_mouse else ""
     towards = step.towards.translate(OTHER_SIDE) if tip else step.towards
-    sides = tr(" and ").join(side_word(letter) for letter in towards)
+    sides = listing(side_word(letter) for letter in towards)
     across = amount(step.across / MILLIMETRE)
     tilt = (
         tr("Aim {mm} mm further towards {sides}", mm=across, sides=sides)
@@ -142,7 +142,7 @@ def touch_words(step: NextStep, touch: TouchState) -> str:
         return tr("Stay on target {n} of {of}", n=number, of=of)
     said = []
     if step.across >= NEAR:
-        sides = tr(" and ").join(side_word(letter) for letter in step.towards)
+        sides = listing(side_word(letter) for letter in step.towards)
         said.append(
             tr(
                 "tip {mm} mm towards {sides} (hand the other way)",

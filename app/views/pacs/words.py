@@ -13,7 +13,6 @@ from app.views.kit.text import day
 _FORMS: Final = ("%Y%m%d", "%Y-%m-%d", "%d.%m.%Y", "%d/%m/%Y")
 """Ways to write a date that everybody may use; none of them can be taken for another."""
 
-_SHORT: Final = re.compile(r"\b(\d{1,2})([./])(\d{1,2})\2(\d{4})\b")
 _DAY: Final = r"(?:\d{8}|\d{4}-\d{1,2}-\d{1,2}|\d{1,2}[./]\d{1,2}[./]\d{4})"
 _RANGE: Final = re.compile(rf"({_DAY})?\s*(?:([-\u2013\u2014])\s*({_DAY})?)?")
 
@@ -64,10 +63,9 @@ def dates_asked(text: str) -> str:
 
 
 def _stored(text: str) -> str:
-    padded = _SHORT.sub(lambda d: f"{int(d[1]):02d}{d[2]}{int(d[3]):02d}{d[2]}{d[4]}", text)
     for form in _FORMS:
         try:
-            return datetime.strptime(padded, form).strftime("%Y%m%d")
+            return datetime.strptime(text, form).strftime("%Y%m%d")
         except ValueError:
             continue
     raise _no_date(text)

@@ -14,7 +14,6 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.exercises.parts import OwnPlan
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr, translated
 from app.views.plan.verdict import PlannedWay, WayState
@@ -98,7 +97,7 @@ class WayWatch(QObject):
             return ()
         exercise = self._conductor.exercise
         untouched = not editor.dirty and editor.path is None
-        given = exercise is not None and not isinstance(exercise.plan, OwnPlan)
+        given = exercise is not None and not exercise.is_own_plan
         if given and untouched and self._conductor.fits(patient):
             return ()
         self._structures = [structure for structure, _ in self._book.fields]  # keeps their ids

@@ -49,7 +49,7 @@ def skill_title(skill: Practised) -> str:
 
 @dataclass(slots=True)
 class _SkillGroup:
-    """A skill with its places, and where they stand: row and first column, or on the shelf."""
+    """A skill with its heading and its places."""
 
     skill: Practised
     heading: PlainLabel

@@ -6,7 +6,6 @@ was never tried, an arc is the best points of 100, a closed ring with ✔ is mas
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
@@ -30,10 +29,8 @@ RING: Final = 5
 
 PAD: Final = 6
 EDGE: Final = 3
-NOBODY: Final = 100.0
+FULL: Final = 100.0
 """Points of a full ring."""
-
-Supplier = Callable[[], Portrait | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +68,7 @@ class Advance:
         """Return how much of the ring is drawn; only what is mastered closes it."""
         if self.is_mastered:
             return 1.0
-        return min(0.96, max(0.0, (self.best or 0.0) / NOBODY))
+        return min(0.96, max(0.0, (self.best or 0.0) / FULL))
 
     @property
     def badge(self) -> str:

@@ -14,7 +14,6 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPixmap
 
 from app.exercises.guidance import GuidanceMode
-from app.exercises.parts import OwnPlan
 from app.exercises.portrait import ACROSS, Portrait
 from app.exercises.schema import Exercise
 from app.exercises.skill import Practised, skill_of
@@ -116,7 +115,7 @@ def _sign(
         for step in (-1, 0, 1):
             y = target.y() + step * 6.0 * unit
             _line(painter, [QPointF(box.left(), y), QPointF(box.right(), y)], theme.AXIAL.colour)
-    if isinstance(exercise.plan, OwnPlan) or entry is None:
+    if exercise.is_own_plan or entry is None:
         _candidates(painter, target, unit)
         return
     along = entry - target

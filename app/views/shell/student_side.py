@@ -8,7 +8,6 @@ from __future__ import annotations
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QPushButton, QWidget
 
-from app.exercises.parts import OwnPlan
 from app.views.exercise.conductor import Conductor
 from app.views.kit.access import ACCESS
 from app.views.kit.roles import Role
@@ -54,7 +53,7 @@ class StudentSide(QObject):
     def _plans(self) -> bool:
         """Return whether the plan is left to the student."""
         exercise = self._conductor.exercise
-        return exercise is not None and isinstance(exercise.plan, OwnPlan)
+        return exercise is not None and exercise.is_own_plan
 
     @property
     def _planning(self) -> bool:
