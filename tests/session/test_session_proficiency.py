@@ -1,8 +1,10 @@
 """Mastery: two passes in a row, of what counts."""
 
+from types import SimpleNamespace
+
 import pytest
 
-from app.session.proficiency import is_mastered, passes_in_a_row
+from app.session.proficiency import mastered, passes_in_a_row
 
 
 @pytest.mark.parametrize(
@@ -20,4 +22,24 @@ from app.session.proficiency import is_mastered, passes_in_a_row
 )
 def test_the_newest_attempts_alone_decide(passed, row):
     assert passes_in_a_row(passed) == row
-    assert is_mastered(passed) is (row == 2)
+
+
+def one(passed=True, version=2, counts=True, exercise="kidney"):
+    return SimpleNamespace(exercise=exercise, version=version, counts=counts, passed=passed)
+
+
+@pytest.mark.parametrize(
+    ("attempts", "masters"),
+    [
+        ([one(), one()], True),
+        ([one(), one(counts=False), one()], True),
+        ([one(), one(counts=False)], False),
+        ([one(version=1), one()], False),
+        ([one(), one(exercise="first-insertion")], False),
+        ([one(), one(), one(passed=False)], False),
+        ([one(), one(), one(passed=False, version=1)], True),
+        ([one(), one(passed=None)], False),
+    ],
+)
+def test_what_counts_at_the_present_version_alone_makes_mastery(attempts, masters):
+    assert mastered(attempts, {"kidney": 2}) == ({"kidney"} if masters else set())
