@@ -493,12 +493,13 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
     lines = [_head(name, value) for name, value in heads if value is not None]
     for row in score.get("rows", []):
         sd = shown_sd(row["name"], row["value"], row.get("sd"))
-        unsure = f" ± {sd:.1g}" if sd else ""
-        value = "-" if row["value"] is None else f"{row['value']:.4g}{unsure} {row['unit']}"
+        unsure = f" ± {language().number(sd, '.1g')}" if sd else ""
+        value = "-"
+        if row["value"] is not None:
+            value = f"{language().number(row['value'], '.4g')}{unsure} {row['unit']}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
         label = known(row["label"])
-        comma = value.replace(".", language().number(0.5, ".1f")[1])
-        lines.append(f"  {label:32} {comma:>20}  {known(band or row['note'] or '')}")
+        lines.append(f"  {label:32} {value:>20}  {known(band or row['note'] or '')}")
     for risk in document["published_risks"]:
         source = f" ({risk['source']})" if risk["source"] else ""
         lines.append(_head(sentence("published"), joined("", (risk["statement"], source))))

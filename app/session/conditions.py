@@ -11,6 +11,7 @@ import numpy as np
 
 from app.core.events import Event
 from app.core.messages import sentence
+from app.exercises.hand_bands import OF_HANDS
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.session.effect_models import choices_of
 from app.session.errors import SessionError
@@ -29,7 +30,7 @@ HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "pen", "scrip
 """Sources of the hand: `robot` is a real hand at a real robot, `pen` one that holds a pen with
 printed markers, `script` the scripted trainee."""
 
-POINTERS: Final = ("mouse", "keyboard", "tablet", "gamepad")
+POINTERS: Final = tuple(OF_HANDS)
 """Those that move a simulated hand, which is a person's: unsteady, and where the attempt waits for
 its first movement."""
 

@@ -9,7 +9,6 @@ full again may be what made the computer late, so each time it was too early the
 from __future__ import annotations
 
 from collections import deque
-from enum import StrEnum
 from typing import Final
 
 LATE_S: Final = 0.030
@@ -31,22 +30,15 @@ RELAPSE_S: Final = 20.0
 """Late again so soon after the display was full again: that was too early [s]."""
 
 
-class Load(StrEnum):
-    """How much is drawn."""
-
-    FULL = "full"
-    LIGHT = "light"
-
-
 class BusyWatch:
     """Judges looks one after the other.
 
     Attributes:
-        load: how much is to be drawn now.
+        is_light: whether less is to be drawn now.
     """
 
     def __init__(self) -> None:
-        self.load = Load.FULL
+        self.is_light = False
         self._looks: deque[tuple[float, float]] = deque()
         self._calm_since: float | None = None
         self._full_since, self._wait = -RELAPSE_S, WAIT_S
@@ -54,25 +46,22 @@ class BusyWatch:
     def begin(self) -> None:
         """Begin another attempt with everything drawn; how long was too early is remembered."""
         self._looks.clear()
-        self.load, self._calm_since = Load.FULL, None
+        self.is_light, self._calm_since = False, None
 
-    def note(self, now: float, passed: float, period: float) -> Load:
+    def note(self, now: float, passed: float, period: float) -> None:
         """Judge a look.
 
         Args:
             now: its time [s].
             passed: since the look before [s].
             period: after which it was due [s].
-
-        Returns:
-            How much is to be drawn from now on.
         """
         looks = self._looks
         looks.append((now, max(0.0, passed - period)))
         while now - looks[0][0] > OVER_S:
             looks.popleft()
         late = sum(late for _, late in looks) / len(looks)
-        if self.load is Load.FULL:
+        if not self.is_light:
             if late > LATE_S and now - looks[0][0] > 0.5 * OVER_S:
                 self._lighten(now)
         elif late > CALM_S:
@@ -80,12 +69,11 @@ class BusyWatch:
         else:
             self._calm_since = now if self._calm_since is None else self._calm_since
             if now - self._calm_since >= self._wait:
-                self.load, self._full_since = Load.FULL, now
+                self.is_light, self._full_since = False, now
                 looks.clear()
-        return self.load
 
     def _lighten(self, now: float) -> None:
         relapsed = now - self._full_since < RELAPSE_S
         self._wait = min(2.0 * self._wait, LONGEST_S) if relapsed else WAIT_S
-        self.load, self._calm_since = Load.LIGHT, None
+        self.is_light, self._calm_since = True, None
         self._looks.clear()

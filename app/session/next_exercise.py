@@ -14,8 +14,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Final
 
+from app.exercises.practised_skill import is_lesson
 from app.exercises.schema import Exercise
-from app.exercises.skill import is_lesson
 from app.scoring.result import Score
 from app.session.board import Standing
 from app.session.course import Course, courses, held_back, holding, not_void

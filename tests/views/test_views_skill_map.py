@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 
 from app.exercises.library import library
 from app.exercises.portrait import kept_portrait
-from app.exercises.skill import Practised, skill_of
+from app.exercises.practised_skill import PractisedSkill, practised_skill
 from app.session.board import Standing
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
@@ -23,7 +23,7 @@ from app.views.shell.start_facts import asker
 from app.views.shell.start_page import StartPage
 
 EXERCISES = tuple(library())
-LESSONS = [one for one in EXERCISES if skill_of(one) is not Practised.MACHINE]
+LESSONS = [one for one in EXERCISES if practised_skill(one) is not PractisedSkill.MACHINE]
 
 
 @pytest.fixture
@@ -54,10 +54,10 @@ def heard(place):
 def test_each_skill_is_a_line_from_left_to_right_in_the_order_of_its_levels(page):
     places = page[0].map.places
     assert set(places) == {one.id for one in EXERCISES}
-    for skill in Practised:
-        if skill is Practised.MACHINE:
+    for skill in PractisedSkill:
+        if skill is PractisedSkill.MACHINE:
             continue
-        line = [places[one.id] for one in EXERCISES if skill_of(one) is skill]
+        line = [places[one.id] for one in EXERCISES if practised_skill(one) is skill]
         assert len({place.y() for place in line}) == 1, skill
         assert [place.x() for place in line] == sorted(place.x() for place in line)
         levels = [place.exercise.level for place in line]

@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
-from app.session.display_load import LONGEST_S, OVER_S, WAIT_S, BusyWatch, Load
+from app.session.display_load import LONGEST_S, OVER_S, WAIT_S, BusyWatch
 from app.session.machine import State
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.controller import LIGHT_MS, PERIOD_MS
@@ -20,17 +20,18 @@ class Looks:
         self.watch, self.now = BusyWatch(), 50.0
 
     def go_on(self, seconds, late, period=PERIOD):
-        """Look for a while; returns the loads that were said."""
+        """Look for a while; returns whether each found the display light."""
         said, end = [], self.now + seconds
         while self.now < end:
             self.now += period + late
-            said.append(self.watch.note(self.now, period + late, period))
+            self.watch.note(self.now, period + late, period)
+            said.append(self.watch.is_light)
         return said
 
-    def until(self, load, late, limit=300.0):
-        """Look until a load is said; returns how long that took [s]."""
+    def until(self, light, late, limit=300.0):
+        """Look until the display is so; returns how long that took [s]."""
         began = self.now
-        while self.watch.load is not load:
+        while self.watch.is_light is not light:
             assert self.now - began < limit
             self.go_on(0.1, late)
         return self.now - began
@@ -42,40 +43,40 @@ def looks():
 
 
 def test_looks_on_time_leave_everything_drawn(looks):
-    assert set(looks.go_on(60.0, 0.004)) == {Load.FULL}
+    assert set(looks.go_on(60.0, 0.004)) == {False}
 
 
 def test_one_long_standstill_is_no_busy_computer(looks):
     looks.go_on(5.0, 0.001)
     looks.go_on(0.1, 1.2)
-    assert set(looks.go_on(10.0, 0.001)) == {Load.FULL}
+    assert set(looks.go_on(10.0, 0.001)) == {False}
 
 
 def test_looks_that_stay_late_make_the_display_lighter_within_some_seconds(looks):
     looks.go_on(5.0, 0.002)
-    assert looks.until(Load.LIGHT, 0.060) <= 2.0 * OVER_S
+    assert looks.until(True, 0.060) <= 2.0 * OVER_S
 
 
 def test_it_is_full_again_only_after_looks_on_time_for_a_while(looks):
-    looks.until(Load.LIGHT, 0.060)
-    assert set(looks.go_on(10.0, 0.020)) == {Load.LIGHT}  # neither late nor on time
-    assert looks.until(Load.FULL, 0.001) >= WAIT_S
+    looks.until(True, 0.060)
+    assert set(looks.go_on(10.0, 0.020)) == {True}  # neither late nor on time
+    assert looks.until(False, 0.001) >= WAIT_S
 
 
 def test_a_display_that_makes_the_computer_late_itself_is_tried_ever_more_seldom(looks):
     waits = []
     for _ in range(8):
-        looks.until(Load.LIGHT, 0.060)
-        waits.append(looks.until(Load.FULL, 0.001))
+        looks.until(True, 0.060)
+        waits.append(looks.until(False, 0.001))
     assert all(after > before - 1.0 for before, after in pairwise(waits))
     assert waits[1] > 1.5 * waits[0]
     assert waits[-1] == pytest.approx(LONGEST_S, abs=1.5 * OVER_S)
 
 
 def test_another_attempt_begins_with_everything_drawn(looks):
-    looks.until(Load.LIGHT, 0.060)
+    looks.until(True, 0.060)
     looks.watch.begin()
-    assert looks.watch.load is Load.FULL
+    assert looks.watch.is_light is False
 
 
 def look(desk, count, seconds):

@@ -15,7 +15,7 @@ from app.core.events import Event
 from app.core.rate_meter import RateMeter
 from app.exercises.parts import ViewName
 from app.planning.placement import PlacedPlan
-from app.session.display_load import BusyWatch, Load
+from app.session.display_load import BusyWatch
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
 from app.session.pad.readings import hand_pose, needle_line
@@ -263,7 +263,7 @@ class ExerciseController(QObject):
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.poll)
-        self._busy, self._load = BusyWatch(), Load.FULL
+        self._busy, self._is_light = BusyWatch(), False
         self.rester = Rester(self)
         self.rester.changed.connect(self._take_rest)
         self.rester.failed.connect(lambda error: self._fail(translated(error)))
@@ -388,9 +388,8 @@ class ExerciseController(QObject):
             self._busy.begin()
         else:
             self._busy.note(now, passed, 1e-3 * self._timer.interval())
-        if self._busy.load is not self._load:
-            self._load = self._busy.load
-            light = self._load is Load.LIGHT
+        if self._busy.is_light is not self._is_light:
+            self._is_light = light = self._busy.is_light
             self._timer.setInterval(LIGHT_MS if light else PERIOD_MS)
             self.burdened.emit(light)
 

@@ -121,7 +121,7 @@ class BackgroundTask(QObject):
         self._callbacks = (_nothing, _nothing, None)
         box, self._box = self._box, _Outcome(_nothing)
         error, result = box.error, box.result
-        box.result = box.error = None  # it stands in a circle, and may have brought a whole patient
+        box.result = box.error = None  # in a reference cycle, perhaps with a whole patient
         try:
             if error is None:
                 on_success(result)

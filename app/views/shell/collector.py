@@ -4,10 +4,10 @@ A full collection walks every object that Python knows. Compiled kernels leave h
 of them, and the walk then holds the interpreter for most of a second, on whichever thread happens
 to allocate: long enough to miss the window's sign of life to the robot. Here the young objects are
 collected on the window's thread, what stands for good is left out of the walk, and full collections
-wait until no attempt runs. What was left out is looked at again when a patient has gone: a circle
-that was made before would hold his CT for good. Qt objects that Python lost in a cycle also die on
-Qt's own thread so: Python does not get it back from a window that closes, as threads that still
-stop would do it.
+wait until no attempt runs. What was left out is looked at again when a patient has gone: a
+reference cycle that was made before would hold his CT for good. Qt objects that Python lost in a
+cycle also die on Qt's own thread so: Python does not get it back from a window that closes, as
+threads that still stop would do it.
 """
 
 from __future__ import annotations

@@ -16,8 +16,8 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QScrollArea, QSizePolicy, QWidget
 
 from app.exercises.portrait import Portrait
+from app.exercises.practised_skill import PractisedSkill, practised_skill
 from app.exercises.schema import Exercise
-from app.exercises.skill import Practised, skill_of
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import declared, literal, tr
@@ -36,14 +36,14 @@ MOST_COLUMNS: Final = 6
 GAP: Final = 10
 
 
-def skill_title(skill: Practised) -> str:
+def skill_title(skill: PractisedSkill) -> str:
     """Name a skill for people."""
     return {
-        Practised.HAND: tr("Hand and tissue"),
-        Practised.BREATH: tr("With the breath"),
-        Practised.CLEARANCE: tr("Past what must not be met"),
-        Practised.PLAN: tr("Plan and control"),
-        Practised.MACHINE: tr("Research machines"),
+        PractisedSkill.HAND: tr("Hand and tissue"),
+        PractisedSkill.BREATH: tr("With the breath"),
+        PractisedSkill.CLEARANCE: tr("Past what must not be met"),
+        PractisedSkill.PLAN: tr("Plan and control"),
+        PractisedSkill.MACHINE: tr("Research machines"),
     }[skill]
 
 
@@ -51,7 +51,7 @@ def skill_title(skill: Practised) -> str:
 class _SkillGroup:
     """A skill with its heading and its places."""
 
-    skill: Practised
+    skill: PractisedSkill
     heading: PlainLabel
     places: list[SkillPlace] = field(default_factory=list)
 
@@ -108,7 +108,7 @@ class SkillMap(QScrollArea):
         before, self.places = self.places, {}
         for group in self._groups:
             group.heading.deleteLater()
-        groups = {skill: _SkillGroup(skill, self._heading(skill)) for skill in Practised}
+        groups = {skill: _SkillGroup(skill, self._heading(skill)) for skill in PractisedSkill}
         for exercise in exercises:
             place = SkillPlace(exercise, self._field)
             known = before.get(exercise.id)
@@ -118,7 +118,7 @@ class SkillMap(QScrollArea):
             place.clicked.connect(lambda _=False, name=exercise.id: self.chosen.emit(name))
             place.moved.connect(self._move)
             place.show()
-            groups[skill_of(exercise)].places.append(place)
+            groups[practised_skill(exercise)].places.append(place)
             self.places[exercise.id] = place
         for old in before.values():
             old.hide()
@@ -209,7 +209,7 @@ class SkillMap(QScrollArea):
         if event.type() is QEvent.Type.StyleChange:
             self._arrange()
 
-    def _heading(self, skill: Practised) -> PlainLabel:
+    def _heading(self, skill: PractisedSkill) -> PlainLabel:
         made = PlainLabel(skill_title(skill), self._field)
         made.setProperty("role", "heading")
         made.show()
@@ -228,12 +228,12 @@ class SkillMap(QScrollArea):
         rows: list[list[tuple[_SkillGroup, int, int]]] = []
         free: list[int] = []
         for group in self._groups:
-            if group.skill is Practised.MACHINE and shelf:
+            if group.skill is PractisedSkill.MACHINE and shelf:
                 continue
             count = len(group.places if every else group.shown)
             for first in range(0, count, columns):
                 part = min(columns, count - first)
-                split = count > columns or group.skill is Practised.MACHINE
+                split = count > columns or group.skill is PractisedSkill.MACHINE
                 row = next((n for n, room in enumerate(free) if room >= part and not split), None)
                 if row is None:
                     rows.append([])
@@ -250,7 +250,7 @@ class SkillMap(QScrollArea):
         """
         height = self.height()
         heading, fixed = self._head(), SkillPlace.above() + SkillPlace.below()
-        machines = any(g.places for g in self._groups if g.skill is Practised.MACHINE)
+        machines = any(g.places for g in self._groups if g.skill is PractisedSkill.MACHINE)
         best: tuple[int, _SkillGrid] | None = None
         for columns in range(2, MOST_COLUMNS + 1):
             for beside in (True, False):
@@ -292,13 +292,13 @@ class SkillMap(QScrollArea):
                 for n, place in enumerate(some):
                     place.setGeometry(left + n * grid.width, top + head, grid.width, tall)
                     place.set_disc(grid.face)
-                if group.skill is Practised.MACHINE:
+                if group.skill is PractisedSkill.MACHINE:
                     row_box = QRect(0, top, len(some) * grid.width, head + tall)
                     shelf = row_box if shelf is None else shelf.united(row_box)
                 else:
                     lines += pairwise(some)
             top += head + tall
-        if grid.beside and any(g.shown for g in self._groups if g.skill is Practised.MACHINE):
+        if grid.beside and any(g.shown for g in self._groups if g.skill is PractisedSkill.MACHINE):
             shelf = self._shelve(grid, room, head, tall)
             top = max(top, shelf.bottom() + 1)
         self._field.draw(lines, shelf)
@@ -307,7 +307,7 @@ class SkillMap(QScrollArea):
 
     def _shelve(self, grid: _SkillGrid, room: int, head: int, tall: int) -> QRect:
         """Stand the research machines one below the other, at the right of the lessons."""
-        group = next(one for one in self._groups if one.skill is Practised.MACHINE)
+        group = next(one for one in self._groups if one.skill is PractisedSkill.MACHINE)
         left = room - grid.width
         _write(group, QRect(left + GAP, 0, grid.width - 2 * GAP, head))
         for n, place in enumerate(group.shown):

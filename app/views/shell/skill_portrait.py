@@ -15,8 +15,8 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPixmap
 
 from app.exercises.guidance import GuidanceMode
 from app.exercises.portrait import ACROSS, Portrait
+from app.exercises.practised_skill import PractisedSkill, practised_skill
 from app.exercises.schema import Exercise
-from app.exercises.skill import Practised, skill_of
 from app.views.exercise.briefing import paint_portrait
 from app.views.kit import theme
 
@@ -33,10 +33,10 @@ def plane_of(exercise: Exercise) -> str:
     """Return the slice that shows an exercise's task: motion from the front, gaps from the side."""
     if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
         return "sagittal"
-    match skill_of(exercise):
-        case Practised.BREATH:
+    match practised_skill(exercise):
+        case PractisedSkill.BREATH:
             return "coronal"
-        case Practised.CLEARANCE:
+        case PractisedSkill.CLEARANCE:
             return "sagittal"
         case _:
             return "axial"
@@ -122,15 +122,15 @@ def _sign(
     size = math.hypot(along.x(), along.y()) or 1.0
     out = along / size
     side = QPointF(-out.y(), out.x())
-    skill = skill_of(exercise)
+    skill = practised_skill(exercise)
     if exercise.touch is not None:
         _tool(painter, entry, target, out, side, unit)
-    elif skill is Practised.MACHINE:
+    elif skill is PractisedSkill.MACHINE:
         _holder(painter, entry, out, side, unit)
-    elif skill is Practised.BREATH:
+    elif skill is PractisedSkill.BREATH:
         beside = -15.0 if along.x() > 3.0 * unit else 15.0
         _breath(painter, target + QPointF(beside * unit, 0.0), unit, exercise.holds_breath)
-    elif skill is Practised.CLEARANCE:
+    elif skill is PractisedSkill.CLEARANCE:
         for way in (-1.0, 1.0):
             off = side * (way * 7.0 * unit)
             _line(painter, [target + off, target + along * 0.6 + off], theme.IMAGE_WARNING)
@@ -138,7 +138,7 @@ def _sign(
         for way in (-1.0, 1.0):
             foot = target + along * 0.45 + side * (way * 4.0 * unit)
             _arrow(painter, foot, side * way, 15.0 * unit, unit)
-    elif skill is Practised.HAND and exercise.laws:
+    elif skill is PractisedSkill.HAND and exercise.laws:
         shares = (1.0, 0.55, 0.2) if exercise.fading is not None else (exercise.assistance,)
         for share in shares:
             _funnel(painter, target, entry, side * (13.0 * unit * share), share)

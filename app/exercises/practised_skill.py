@@ -23,7 +23,7 @@ KEPT_CLEAR: Final = "forbidden_region"
 """Law by which a robot keeps the needle out of a region."""
 
 
-class Practised(StrEnum):
+class PractisedSkill(StrEnum):
     """What an exercise practises most, in the order in which the map shows them."""
 
     HAND = "hand"
@@ -33,20 +33,20 @@ class Practised(StrEnum):
     MACHINE = "machine"
 
 
-def skill_of(exercise: Exercise) -> Practised:
+def practised_skill(exercise: Exercise) -> PractisedSkill:
     """Return the skill that an exercise practises most."""
     if exercise.touch is not None or _kind(exercise.device) != DEFAULT_KIND:
-        return Practised.MACHINE
+        return PractisedSkill.MACHINE
     if exercise.is_own_plan or exercise.guidance_mode is GuidanceMode.CONTROL_CT:
-        return Practised.PLAN
+        return PractisedSkill.PLAN
     if KEPT_CLEAR in exercise.laws or any(part.risks for part in exercise.structures):
-        return Practised.CLEARANCE
-    return Practised.BREATH if "breathing" in exercise.effects else Practised.HAND
+        return PractisedSkill.CLEARANCE
+    return PractisedSkill.BREATH if "breathing" in exercise.effects else PractisedSkill.HAND
 
 
 def is_lesson(exercise: Exercise) -> bool:
     """Return whether an exercise is one of the lessons; those of research machines are none."""
-    return skill_of(exercise) is not Practised.MACHINE
+    return practised_skill(exercise) is not PractisedSkill.MACHINE
 
 
 @lru_cache(maxsize=64)

@@ -1,22 +1,22 @@
 """Every shipped exercise has one place in the map of skills."""
 
 from app.exercises.library import library
+from app.exercises.practised_skill import PractisedSkill, is_lesson, practised_skill
 from app.exercises.schema import Exercise
-from app.exercises.skill import Practised, is_lesson, skill_of
 
 PLACES = {
-    Practised.HAND: {"first-insertion", "thick-tissue", "with-less-help", "against-repulsion"},
-    Practised.BREATH: {"breathing-liver", "kidney", "hold-the-breath", "lung-between-ribs"},
-    Practised.CLEARANCE: {"past-the-vessel", "beside-the-vein"},
-    Practised.PLAN: {"plan-it-yourself", "scans-only"},
-    Practised.MACHINE: {"tensegrity-liver", "laparoscopic-tool"},
+    PractisedSkill.HAND: {"first-insertion", "thick-tissue", "with-less-help", "against-repulsion"},
+    PractisedSkill.BREATH: {"breathing-liver", "kidney", "hold-the-breath", "lung-between-ribs"},
+    PractisedSkill.CLEARANCE: {"past-the-vessel", "beside-the-vein"},
+    PractisedSkill.PLAN: {"plan-it-yourself", "scans-only"},
+    PractisedSkill.MACHINE: {"tensegrity-liver", "laparoscopic-tool"},
 }
 
 
 def test_the_shipped_exercises_stand_where_their_descriptions_say():
     found = {}
     for exercise in library():
-        found.setdefault(skill_of(exercise), set()).add(exercise.id)
+        found.setdefault(practised_skill(exercise), set()).add(exercise.id)
     assert found == PLACES
 
 
