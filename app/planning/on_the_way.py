@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.imaging.field.walking import holding, walk
 from app.planning.judged import WEIGHTS, WayHindrance
+from app.planning.tissues import SMALL_VESSELS
 
 MOST_MM: Final = {
     TissueKind.BONE: WEIGHTS.most_bone_mm,
@@ -29,7 +30,8 @@ def hindrances(
 ) -> tuple[WayHindrance, ...]:
     """Return what is on the way, the first that the needle meets first.
 
-    What holds the target is none: there the needle has to go.
+    What holds the target is none: there the needle has to go. Nor are small vessels, which the map
+    of entries lets a needle meet.
 
     Args:
         field: of the patient.
@@ -40,7 +42,10 @@ def hindrances(
     begins: dict[int, float] = {}
     lengths: dict[int, float] = {}
     for part in walk(field, np.array([entry_mm, target_mm], np.float64)):
-        if part.code not in wanted and field.tissues[part.code].kind in MOST_MM:
+        tissue = field.tissues[part.code]
+        if part.code in wanted or tissue.name in SMALL_VESSELS:
+            continue
+        if tissue.kind in MOST_MM:
             begins.setdefault(part.code, part.begin_mm)
             lengths[part.code] = lengths.get(part.code, 0.0) + part.length_mm
     met = [
