@@ -258,10 +258,10 @@ def test_the_folder_says_what_comes_next_and_which_attempts_may_stand_beside(tmp
     assert (held.rivals, held.proposal.exercise) == ((), "")
 
 
-def proposed(folder, under, student="ada", name="z", value=score(0.5), drill=None):
+def proposed(folder, under, student="ada", name="z", angle=0.5, drill=None):
     """What follows an attempt of the day of all records here."""
     shown = SimpleNamespace(
-        drill=drill, id=name, student=student, conditions=under, score=value,
+        drill=drill, id=name, student=student, conditions=under, score=score(angle),
         started="2026-11-20T10:00:00+00:00",
     )  # fmt: skip
     first = [one.model_copy(update={"version": 1}) for one in EXERCISES]
@@ -286,7 +286,7 @@ def test_what_a_script_failed_does_not_make_a_person_s_next_exercise_easier(tmp_
         at = f"2026-11-20T0{number}:00:00+00:00"
         write(folder, f"s{number}", "ada", 10.0, hard, at, scripted="novice")
     under = write(folder, "z", "ada", 10.0, hard)
-    found = proposed(folder, under, value=score(9.0))
+    found = proposed(folder, under, angle=9.0)
     assert (found.exercise, found.reason) == (hard, ProposalReason.AGAIN)
 
 

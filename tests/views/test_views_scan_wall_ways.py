@@ -20,7 +20,6 @@ from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.views.exercise.scan_wall import ScanPicture, ScanWall
 
-
 WAYS = {
     "head first supine": (1, 0, 0, 0, 1, 0),
     "head first prone": (-1, 0, 0, 0, -1, 0),
