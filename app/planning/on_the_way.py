@@ -39,13 +39,11 @@ def hindrances(
         target_mm: LPS, shape (3,).
     """
     wanted = set(holding(field, target_mm).tolist())
+    wanted |= {tissue.code for tissue in field.tissues if tissue.name in SMALL_VESSELS}
     begins: dict[int, float] = {}
     lengths: dict[int, float] = {}
     for part in walk(field, np.array([entry_mm, target_mm], np.float64)):
-        tissue = field.tissues[part.code]
-        if part.code in wanted or tissue.name in SMALL_VESSELS:
-            continue
-        if tissue.kind in MOST_MM:
+        if part.code not in wanted and field.tissues[part.code].kind in MOST_MM:
             begins.setdefault(part.code, part.begin_mm)
             lengths[part.code] = lengths.get(part.code, 0.0) + part.length_mm
     met = [
