@@ -9,14 +9,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from app.compose.exercise_ct import read_ct
 from app.compose.exercise_field import tissues_of
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of
 from app.imaging.body import find_body
+from app.imaging.phantom import organs, skeleton
 from app.imaging.phantom.anatomy import anatomy
+from app.imaging.phantom.lesion import make_patient
+from app.imaging.phantom.vessels import vasculature
 from app.imaging.skin import skin_points
+from app.planning.judged_plan import judge_plan
 from app.planning.limits import ReachLimits
 from app.planning.paths import PathObstacle, best, score_paths
 from app.planning.placement import PlacedPlan
@@ -140,3 +145,87 @@ def test_what_speaks_against_a_plan_is_said_and_kept_in_the_record() -> None:
             assert float(lung.split(" mm")[0].rsplit(" ", 1)[1]) == pytest.approx(length, abs=1.5)
         else:
             assert any("mm long and goes in" in one for one in said)
+
+
+GRID_MM = 0.6
+AWAY_MM = 11.0
+
+
+def avoided_about(entry_mm: Any, target_mm: Any) -> Any:
+    """Places near a path in what it should not meet, by what the patient is drawn by; LPS [mm]."""
+    drawn_by = make_patient(patient().exercise.ct.phantom.seed)
+    tubes = vasculature(drawn_by)
+    low = np.minimum(entry_mm, target_mm) - AWAY_MM
+    high = np.maximum(entry_mm, target_mm) + AWAY_MM
+    axes = [np.arange(a, b, GRID_MM) for a, b in zip(low, high, strict=True)]
+    places = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    way = target_mm - entry_mm
+    share = np.clip((places - entry_mm) @ way / (way @ way), 0.0, 1.0)
+    places = places[np.linalg.norm(places - entry_mm - share[:, None] * way, axis=1) < AWAY_MM]
+    model = places / np.array(drawn_by.scale)
+    at = organs.place_of(drawn_by, *model.T)
+    touching = organs.touching(at)
+    p = np.abs(np.arctan2(at.x, at.y)) / np.pi
+    bone = skeleton.rib_distance(at.wall - 5.0, p, at.z)[0] < 0.0
+    covered = organs.liver(drawn_by, touching) < 0.0
+    soft = organs.lungs(drawn_by, at) < 0.0
+    soft |= organs.heart(drawn_by, at) < 0.0
+    soft |= organs.stomach(drawn_by, touching) < 0.0
+    soft &= ~covered
+    balls = [each.balls for each in (tubes.arteries, tubes.cava, tubes.portal, tubes.hepatic)]
+    great = np.vstack(balls)
+    great = great[great[:, 3] >= 2.0]
+    gut = np.vstack([tubes.small_bowel.balls, tubes.colon.balls])
+    middle, reach = model.mean(axis=0), np.ptp(model, axis=0).max()
+    for some in (great, gut):
+        near = some[np.linalg.norm(some[:, :3] - middle, axis=1) < reach + some[:, 3]]
+        for x, y, z, radius in near.tolist():
+            soft |= ((model - (x, y, z)) ** 2).sum(axis=1) < radius**2
+    soft &= organs.lesion(drawn_by, at) > 0.0
+    return places[bone | soft]
+
+
+def tilt_of(entry_mm: Any, target_mm: Any) -> float:
+    """Angle between a path and the skin as it is drawn [°]."""
+    drawn_by = make_patient(patient().exercise.ct.phantom.seed)
+
+    def outside(place_mm: Any) -> float:
+        return float(organs.place_of(drawn_by, *(place_mm / np.array(drawn_by.scale))).skin)
+
+    steps = 2.0 * np.eye(3)
+    normal = np.array([outside(entry_mm + step) - outside(entry_mm - step) for step in steps])
+    way = entry_mm - target_mm
+    cosine = way @ normal / np.linalg.norm(way) / np.linalg.norm(normal)
+    return float(np.degrees(np.arccos(cosine)))
+
+
+def test_room_angle_and_points_are_those_of_the_distances_that_the_patient_is_drawn_by() -> None:
+    """By the rule that is written: lengths to 120 mm, angles to 65°, room to 10 mm, one, one, two.
+
+    Nothing here goes through the tissue field, or what measures in it.
+    """
+    seen = patient()
+    free = drawn(seen.scores.free)[:8]
+    rooms = []
+    for number in (*best(seen.scores, 2, 10.0), *free):
+        entry_mm = seen.scores.entries_mm[number]
+        places = avoided_about(entry_mm, seen.target_mm)
+        length = float(np.linalg.norm(seen.target_mm - entry_mm))
+        path = entry_mm + np.linspace(0.0, 1.0, 400)[:, None] * (seen.target_mm - entry_mm)
+        room = np.inf
+        if len(places):
+            room = float(cKDTree(places).query(path)[0].min()) - 0.3 * GRID_MM
+        room = min(room, AWAY_MM)
+        plan = judge_plan(seen.field, entry_mm, seen.target_mm)
+        assert plan.meets == ()
+        assert min(plan.clear_mm, AWAY_MM) == pytest.approx(room, abs=1.0), plan.nearest
+        tilt = tilt_of(entry_mm, seen.target_mm)
+        assert plan.angle_deg == pytest.approx(tilt, abs=4.0)
+        assert plan.length_mm == pytest.approx(length)
+        crowded = 2.0 * max(0.0, 1.0 - room / 10.0)
+        cost = length / 120.0 + tilt / 65.0 + crowded
+        assert plan.points == pytest.approx(100.0 * (1.0 - cost / 4.0), abs=6.0)
+        rooms.append(room)
+    print(f"\nroom: {np.round(sorted(rooms), 1)}")
+    assert min(rooms) < 3.0
+    assert max(rooms) > 6.0

@@ -70,6 +70,15 @@ def sight(time: float, remaining: float, rests: bool) -> Sight:
     return Sight(time, np.zeros(2), remaining, StepKind.LOOK, rests)
 
 
+def test_what_is_on_the_screen_now_is_seen_a_fifth_of_a_second_later(student: Student) -> None:
+    hand = scene_of(student).hand(HandPose(student.trainer._placed.axis, 0.0, True))
+    desk = Desk(hand, 0.3, None)
+    for number in range(40):
+        desk.show(sight(0.02 * number, 100.0 - number, True))
+        if number >= 10:
+            assert desk.seen.remaining == pytest.approx(100.0 - (number - 10))
+
+
 def bent_beside_a_moved_target(student: Student) -> tuple[Snapshot, NeedleLine]:
     """A needle in the body, its tip bent off its line, the target moved by the breath."""
     student.trainer.begin()

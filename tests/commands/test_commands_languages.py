@@ -111,6 +111,15 @@ def test_sentences_within_sentences_counts_and_lists_are_the_reader_s():
     assert (listed([]), listed(["a"])) == ("", "a")
 
 
+def test_numbers_within_a_text_have_the_reader_s_decimal_point():
+    passes = sentence("The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.",
+                      length_mm=2.5, tissue="x", depth_mm=20.0)  # fmt: skip
+    for code, number in (("de", "2,5"), ("fr", "2,5"), ("en", "2.5")):
+        told = language.texts(code).translated(passes)
+        assert number in told
+        assert (told == passes) is (code == "en")
+
+
 def test_a_file_that_is_no_language_leaves_the_answers_english(tmp_path):
     (tmp_path / "acus_de.ts").write_text("<TS")
     assert language.texts("de", tmp_path).translated(sentence("not passed")) == "not passed"

@@ -22,7 +22,7 @@ def slab(low: float, high: float):
     return lambda points: np.maximum(low - points[:, 1], points[:, 1] - high)
 
 
-def body(*more):
+def body(*more, spacing: float = 1.0, deep: int = 100):
     """Skin at y = 0, the body behind it, liver from 10 mm on; and what is laid over."""
     shapes = [
         (Kind.AIR, "", lambda points: np.full(len(points), -50.0)),
@@ -30,7 +30,8 @@ def body(*more):
         (Kind.ORGAN, "liver", beyond((0, 1, 0), 10.0)),
         *more,
     ]
-    return field_of_shapes(shapes, (-60.0, -20.0, -30.0), (121, 121, 61))
+    size = tuple(round(length / spacing) + 1 for length in (120.0, deep + 20.0, 60.0))
+    return field_of_shapes(shapes, (-60.0, -20.0, -30.0), size, spacing)
 
 
 @pytest.mark.parametrize("degrees", [0.0, 15.0, 30.0])
@@ -53,6 +54,55 @@ def test_room_is_the_distance_from_the_nearest_that_must_not_be_met(away: float)
     assert plan.nearest == "rib"
     assert plan.nearest_mm == pytest.approx(5.0, abs=1.0)
     assert plan.meets == ()
+
+
+@pytest.mark.parametrize("spacing", [0.8, 1.6])
+def test_room_is_in_millimetres_whatever_the_voxels_are(spacing: float) -> None:
+    rib = (Kind.BONE, "rib", rod(9.0, 20.0, 3.0))
+    plan = judge_plan(body(rib, spacing=spacing), (0.0, 0.0, 0.0), TARGET)
+    assert plan.clear_mm == pytest.approx(6.0, abs=spacing)
+
+
+@pytest.mark.parametrize("kind", [Kind.BONE, Kind.LUNG, Kind.VESSEL, Kind.GUT, Kind.HEART])
+def test_each_kind_that_no_needle_should_meet_is_kept_away_from(kind: TissueKind) -> None:
+    plan = judge_plan(body((kind, "it", rod(9.0, 30.0, 3.0))), (0.0, 0.0, 0.0), TARGET)
+    assert plan.clear_mm == pytest.approx(6.0, abs=0.6)
+    met = judge_plan(body((kind, "it", rod(0.0, 30.0, 3.0))), (0.0, 0.0, 0.0), TARGET)
+    assert (met.points, met.clear_mm, [one.kind for one in met.meets]) == (0.0, 0.0, [kind])
+
+
+@pytest.mark.parametrize("name", ["small vessel", "lung vessel"])
+def test_a_small_vessel_may_be_met_and_costs_nothing(name: str) -> None:
+    vessel = (Kind.VESSEL, name, rod(0.5, 30.0, 1.6))
+    plan, without = (judge_plan(body(*some), (0, 0, 0), TARGET) for some in ((vessel,), ()))
+    assert (plan.meets, plan.clear_mm) == ((), np.inf)
+    assert plan.points == pytest.approx(without.points)
+
+
+def test_what_holds_the_target_is_kept_away_from_by_none() -> None:
+    lung = (Kind.LUNG, "", slab(20.0, 110.0))
+    assert judge_plan(body(lung), (0.0, 0.0, 0.0), TARGET).clear_mm == np.inf
+
+
+def test_the_points_are_those_of_the_written_rule() -> None:
+    """Parts of length to 120 mm and of angle to 65°, and of room to 10 mm twice, of four; a lung
+    that holds the target adds a fifth, of the angle at the pleura to 90°.
+    """
+    rib = (Kind.BONE, "rib", rod(9.0, 5.0, 3.0))
+    plan = judge_plan(body(rib), (0.0, 0.0, 0.0), TARGET)
+    assert plan.points == pytest.approx(100.0 * (1.0 - (60.0 / 120.0 + 2.0 * 0.4) / 4.0), abs=3.0)
+    entry = (60.0 * np.tan(np.radians(30.0)), 0.0, 0.0)
+    tilted = judge_plan(body((Kind.LUNG, "", slab(20.0, 110.0))), entry, TARGET)
+    length = 60.0 / np.cos(np.radians(30.0))
+    cost = length / 120.0 + 30.0 / 65.0 + 30.0 / 90.0
+    assert tilted.points == pytest.approx(100.0 * (1.0 - cost / 5.0), abs=2.0)
+
+
+def test_a_path_that_is_too_long_is_none() -> None:
+    for length, is_long in ((119.0, False), (121.0, True)):
+        plan = judge_plan(body(deep=140), (0.0, 0.0, 0.0), (0.0, length, 0.0))
+        assert plan.is_long is is_long
+        assert (plan.points == 0.0) is is_long
 
 
 def test_what_lies_nearer_costs_more_and_what_is_met_costs_all() -> None:

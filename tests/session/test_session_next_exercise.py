@@ -222,17 +222,21 @@ def test_a_result_is_held_for_who_takes_an_assessment_until_it_is_released_and_f
     assert holding([assessed], other, "first-insertion", 1, released=False) is None
 
 
-def write(folder, name, student, total, exercise="first-insertion"):
+def write(
+    folder, name, student, total, exercise="first-insertion", started="2026-11-20T10:00:00+00:00",
+    **known,
+):  # fmt: skip
     """A record as the index finds it: its summary is enough."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}.mcap"
     path.write_bytes(b"not opened: the sidecar is enough")
     score = {"total": total, "passed": (total or 0.0) >= 60.0, "void_reason": "", "rows": []}
-    under = Conditions(exercise, 1, kind=DeviceKind.SIMULATED, hand="mouse", scoring_version=2)
+    made = {"kind": DeviceKind.SIMULATED, "hand": "mouse", "scoring_version": 2} | known
+    under = Conditions(exercise, 1, **made)
     write_summary(
         path,
         Summary(
-            name, "2026-11-20T10:00:00+00:00", student, exercise, state="ended",
+            name, started, student, exercise, state="ended",
             score=MappingProxyType(score), conditions=under,
         ),
     )  # fmt: skip
@@ -252,6 +256,76 @@ def test_the_folder_says_what_comes_next_and_which_attempts_may_stand_beside(tmp
     assert found.proposal.exercise == "thick-tissue"
     held = around(folder, shown, True, EXERCISES, False, lambda _: True, lambda _: "")
     assert (held.rivals, held.proposal.exercise) == ((), "")
+
+
+def proposed(folder, under, student="ada", name="z", angle=0.5, drill=None):
+    """What follows an attempt of the day of all records here."""
+    shown = SimpleNamespace(
+        drill=drill, id=name, student=student, conditions=under, score=score(angle),
+        started="2026-11-20T10:00:00+00:00",
+    )  # fmt: skip
+    first = [one.model_copy(update={"version": 1}) for one in EXERCISES]
+    return around(folder, shown, False, first, False, lambda _: True, lambda _: "").proposal
+
+
+def test_two_passes_of_which_one_was_declared_void_master_nothing(tmp_path):
+    person, _ = People().add(RosterLine("ada", groups=("A",)))
+    folder = tmp_path / "records"
+    under = write(folder, "y", person.key, 80.0, started="2026-11-20T09:00:00+00:00")
+    write(folder, "z", person.key, 80.0)
+    assert proposed(folder, under, person.key).exercise == "thick-tissue"
+    People().remark("y", void="the needle was not the one of the exercise")
+    found = proposed(folder, under, person.key)
+    assert (found.exercise, found.reason) == ("first-insertion", ProposalReason.CONFIRM)
+
+
+def test_what_a_script_failed_does_not_make_a_person_s_next_exercise_easier(tmp_path):
+    folder = tmp_path / "records"
+    hard = "breathing-liver"
+    for number in range(TRIES):
+        at = f"2026-11-20T0{number}:00:00+00:00"
+        write(folder, f"s{number}", "ada", 10.0, hard, at, scripted="novice")
+    under = write(folder, "z", "ada", 10.0, hard)
+    found = proposed(folder, under, angle=9.0)
+    assert (found.exercise, found.reason) == (hard, ProposalReason.AGAIN)
+
+
+def test_rounds_of_a_drill_are_those_of_its_day_that_were_not_declared_void(tmp_path):
+    person, _ = People().add(RosterLine("ada", groups=("A",)))
+    folder, drill = tmp_path / "records", "drill-repeat-first-insertion"
+    for day in (18, 19, 20, 21):
+        at = f"2026-11-{day}T09:00:00+00:00"
+        under = write(folder, f"d{day}", person.key, 70.0, drill, at, drill="repeat")
+    write(folder, "z", person.key, 85.0, drill, drill="repeat")
+    write(folder, "later", person.key, 85.0, drill, "2026-11-20T11:00:00+00:00", drill="repeat")
+    part = DrillPart(kind="repeat", of="first-insertion", version=1)
+    assert proposed(folder, under, person.key, drill=part).tries == 2
+    People().remark("d20", void="somebody else had the mouse")
+    assert proposed(folder, under, person.key, drill=part).tries == 1
+
+
+def test_nothing_easier_is_proposed_that_may_not_be_begun():
+    easy = [one.id for one in EXERCISES if one.level < level("breathing-liver")]
+    before = [done("breathing-liver", False)] * TRIES
+    found = propose(
+        "breathing-liver", score(5.0), before, EXERCISES, None,
+        lambda name: "it opens tomorrow" if name in easy[:-1] else "",
+    )  # fmt: skip
+    assert (found.exercise, found.reason) == (easy[-1], ProposalReason.EASIER)
+    found = propose(
+        "breathing-liver", score(5.0), before, EXERCISES, None,
+        lambda name: "it opens tomorrow" if name in easy else "",
+    )  # fmt: skip
+    assert (found.exercise, found.reason) == ("breathing-liver", ProposalReason.AGAIN)
+
+
+def test_in_a_course_nothing_easier_is_proposed_that_is_not_in_it():
+    before = [done("breathing-liver", False)] * TRIES
+    some = course("breathing-liver", "thick-tissue")
+    found = propose("breathing-liver", score(5.0), before, EXERCISES, some)
+    assert found.exercise == "thick-tissue"
+    alone = propose("breathing-liver", score(5.0), before, EXERCISES, course("breathing-liver"))
+    assert alone.reason is ProposalReason.AGAIN
 
 
 def test_a_round_of_a_drill_is_an_attempt_with_a_score(tmp_path):

@@ -53,6 +53,18 @@ def test_no_allocation_starts_a_collection_while_the_window_collects(collector, 
     assert len(kept) == 20_000
 
 
+def test_a_window_takes_the_collection_over_from_python(application):
+    before = gc.isenabled()
+    gc.enable()  # the tests themselves have it off
+    fresh = Collector(lambda: False)
+    try:
+        fresh.open()
+        assert not gc.isenabled()
+    finally:
+        fresh.close()
+        (gc.enable if before else gc.disable)()
+
+
 def test_a_full_collection_waits_for_the_end_of_the_attempt(collector, busy, generations):
     busy[0] = True
     for _ in range(2 * FULL_EVERY):

@@ -146,6 +146,9 @@ def test_tab_comes_to_one_place_and_arrows_to_every_other(page):
         assert start.map.current is not before
     QTest.keyClick(start.map.current, Qt.Key.Key_Down)
     assert start.map.current is places["breathing-liver"]
+    QTest.keyClick(start.map.current, Qt.Key.Key_Up)
+    assert start.map.current is places["first-insertion"]
+    QTest.keyClick(start.map.current, Qt.Key.Key_Down)
     QTest.keyClick(start.map.current, Qt.Key.Key_Return)
     assert chosen == ["breathing-liver"]
 
