@@ -168,3 +168,54 @@ def test_a_run_that_is_closed_while_time_stands_ends_at_once(tmp_path: Path) -> 
     began = time.monotonic()
     rig.close()
     assert time.monotonic() - began < 10.0
+
+
+def _by_a_person(rig: Rig) -> None:
+    """Insert as a person does who looks at a window that is drawn four times a second."""
+    trainer, placed = rig.trainer, rig.setup.placed
+
+    def look(seconds: float) -> None:
+        end = trainer.time + seconds
+        while trainer.time < end:
+            trainer.lead(0.1)
+            time.sleep(0.25)
+            assert trainer.snapshot().state is not State.PAUSED
+
+    wait(lambda: trainer.lead(0.1) is not None and trainer.snapshot().state is not State.READY)
+    for share in np.linspace(0.0, 1.0, 12):
+        depth = -0.015 + share * (placed.length + 0.015)
+        trainer.hand(float(placed.axis[0]), float(placed.axis[1]), depth)
+        look(0.4)
+    look(1.0)
+
+
+@pytest.mark.timeout(900)  # where kernels are compiled first
+def test_a_person_s_attempt_on_a_slow_computer_is_slowed_never_paused_or_void(
+    tmp_path: Path,
+) -> None:
+    """Seen: four of five attempts by mouse were void where other programs kept eight threads."""
+    rig = rig_of("first-insertion", slow(8.0), tmp_path, skill=None)
+    result = by_threads(rig, _by_a_person)
+    assert total_of(result) > 0.0
+    events = rig.trainer.events.drain()
+    assert not [event for event in events if event.kind == "pause"]
+    assert [event for event in events if event.kind == SLOWED]
+
+
+def test_a_window_that_is_gone_for_good_lets_time_go_on_and_the_force_off(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.core.paced_clock.PATIENCE", 0.5)
+    rig = rig_of("first-insertion", slow(1.0), tmp_path, skill=None)
+    rig.trainer.open()
+    try:
+        wait(lambda: rig.trainer.snapshot().pose.measured)
+        rig.trainer.begin()
+        rig.trainer.lead(0.1)
+        stood = rig.trainer.time
+        time.sleep(0.3)
+        assert rig.trainer.time <= stood + 0.2
+        wait(lambda: rig.trainer.time > stood + 2.0)
+        wait(lambda: rig.loop.latest().row[sv.ENABLED] == 0.0)
+    finally:
+        rig.close()

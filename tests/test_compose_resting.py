@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.compose.trainer import TrainerSetup, build_rig, device_of
+from app.core.clock import SystemClock
 from app.core.paced_clock import PacedClock
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
@@ -31,9 +32,9 @@ def wait(ready, seconds=300.0):  # a first start compiles its kernels
         time.sleep(0.01)
 
 
-@pytest.fixture
-def rig(tmp_path):
-    rig = built(tmp_path)
+@pytest.fixture(params=[SystemClock, PacedClock], ids=["wall", "paced"])
+def rig(tmp_path, request):
+    rig = built(tmp_path, clock=request.param())
     rig.trainer.open()
 
     def measured():
@@ -104,7 +105,7 @@ def test_a_plan_that_is_moved_out_of_a_rest_is_seen(rig):
     wait(lambda: np.allclose(rig.trainer.snapshot().p_target, moved.setup.placed.p_target))
 
 
-def test_a_real_robot_and_a_run_in_paced_time_never_rest(tmp_path):
+def test_a_real_robot_and_a_script_in_paced_time_never_rest(tmp_path):
     from app.compose.emulator import Emulator, EmulatorSetup
 
     paced = built(tmp_path, skill="expert", clock=PacedClock())

@@ -188,7 +188,7 @@ def _show(
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     trainee = skill.value if leader is None else None
-    window = open_window(Desktop(trainee, seed, sessions, (shown,), led=leader is not None))
+    window = open_window(Desktop(trainee, seed, sessions, (shown,)))
     if pen:
         window.equipment.take_pen("simulated")
     else:

@@ -78,7 +78,6 @@ class Desktop:
         seed: of everything random; None takes each exercise's own.
         sessions: folder of the records.
         besides: exercises of other files; each stands for one of its name in the library.
-        led: whether a program leads the hand in every run, and time can wait for it.
     """
 
     def __init__(
@@ -87,10 +86,8 @@ class Desktop:
         seed: int | None = None,
         sessions: Path | None = None,
         besides: tuple[Exercise, ...] = (),
-        led: bool = False,
     ) -> None:
         self._skill, self._seed, self._besides = skill, seed, besides
-        self._led = led
         self._sessions = sessions or paths.sessions()
         self._kernels = TrackerKernels()
 
@@ -215,9 +212,9 @@ class Desktop:
         skill = DEMONSTRATOR if shows else self._skill
         kept = temporary_folder("demonstration") if shows else self._sessions
         shown = ShownMotion.kept(exercise.id, exercise.version) if shows else None
-        led = self._led or skill is not None
+        # Where all is simulated a busy computer slows the world, not only its hand.
         simulated = setup.cameras is None or setup.cameras.simulated
-        paced = led and simulated and not setup.robot.port and not setup.robot.pen
+        paced = simulated and not setup.robot.port and not setup.robot.pen
         trainer = TrainerSetup(
             exercise,
             setup.placed,

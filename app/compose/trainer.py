@@ -305,6 +305,7 @@ def _build_rig(
         start=Start.SIMULATED if robot is None else Start.REAL,
         beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
         simulated=robot is None and real is None,
+        scripted=setup.skill is not None or setup.script is not None,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 

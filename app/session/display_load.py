@@ -1,4 +1,4 @@
-"""A computer that is too busy for all pictures of an attempt: the display becomes lighter first.
+"""A computer that is too busy for an attempt: the display becomes lighter first, then time slower.
 
 What is measured is how late the window's own looks come, not a guess from the load of the machine.
 The hand, the slices and the record need the time more than the 3D view: it stands still, and the
@@ -77,3 +77,39 @@ class BusyWatch:
         self._wait = min(2.0 * self._wait, LONGEST_S) if relapsed else WAIT_S
         self.is_light, self._calm_since = True, None
         self._looks.clear()
+
+
+NOTICED: Final = 0.9
+"""From this share of the wall's speed on a slowed world is spoken of: less is not felt."""
+
+
+class WorldPace:
+    """Tells how fast a simulated world goes on, which waits for a busy computer."""
+
+    def __init__(self) -> None:
+        self._looks: deque[tuple[float, float]] = deque()
+        self._share = 1.0
+
+    def begin(self) -> None:
+        """Forget what was; the world is as fast as the wall."""
+        self._looks.clear()
+        self._share = 1.0
+
+    def note(self, now: float, time: float) -> float:
+        """Return the share of the wall's speed over the last seconds, in tenths; 1 for all of it.
+
+        Args:
+            now: time of the wall [s].
+            time: that of the world [s].
+        """
+        looks = self._looks
+        looks.append((now, time))
+        while now - looks[0][0] > OVER_S:
+            looks.popleft()
+        passed = now - looks[0][0]
+        if passed > 0.5 * OVER_S:
+            share = (time - looks[0][1]) / passed
+            # A tenth of play, so that the words do not flicker between two shares.
+            if abs(share - self._share) > 0.1 or (share > NOTICED) != (self._share > NOTICED):
+                self._share = 1.0 if share > NOTICED else max(0.1, round(share, 1))
+        return self._share

@@ -92,6 +92,7 @@ class Trainer:
         start: Start = Start.ANYWHERE,
         beginnings: Beginnings | None = None,
         simulated: bool = False,
+        scripted: bool = False,
     ) -> None:
         """Keep the parts.
 
@@ -102,8 +103,9 @@ class Trainer:
         met. `dial` is the assistance that every attempt begins with; None for the exercise's.
         `trust` says how far a depth by the cameras is believed, `start` how the needle comes out of
         the skin before an attempt, `beginnings` where a simulated hand that a person moves begins;
-        None for where scripts do. `simulated` says that robot and cameras both are: in the wall's
-        time they rest while nobody wants them, and no pause is a real camera's fault.
+        None for where scripts do. `simulated` says that robot and cameras both are: they rest while
+        nobody wants them, and no pause is a real camera's fault. `scripted` says that a program in
+        the loop moves the hand: by a paced clock it needs no window that lives, and never rests.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -125,14 +127,20 @@ class Trainer:
         self._withdrawal, self._beginnings = Withdrawal(self._inputs, start), beginnings
         self._latest: Latest[Snapshot] = Latest()
         real = isinstance(self._clock, SystemClock)
+        paced = self._clock if isinstance(self._clock, PacedClock) else None
         self._standstill = Standstill() if real else Standstill(lambda: 0.0)
-        self._simulated = simulated
+        self._simulated, self._scripted = simulated, scripted
+        # Who waits for a rest waits by the wall: another time stands meanwhile.
+        may_rest = simulated and (real or (paced is not None and not scripted))
         self.resting = Resting(
-            simulated and real, self._clock, self._needed, self._stop, self._start
+            may_rest,
+            SystemClock() if paced is not None else self._clock,
+            self._needed,
+            self._stop,
+            self._start,
         )
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
-        paced = self._clock if isinstance(self._clock, PacedClock) else None
         self._paced, self._led_at, self._lost_before = paced, inf, 0.0
         self._leading = None if paced is None else paced.hold("hand")
 
@@ -311,7 +319,10 @@ class Trainer:
             self._withdrawal.follow(x, y, depth)
 
     def lead(self, within: float) -> float | None:
-        """Hear from a program that leads the hand step by step in a run whose time is paced.
+        """Hear from whoever leads the hand step by step in a run whose time is paced.
+
+        That is a program, or the window to which a person looks: time does not go on past what it
+        has shown.
 
         Args:
             within: time goes on for so long at most until it is heard again [s]; inf if it leaves.
@@ -322,6 +333,7 @@ class Trainer:
         if self._paced is None or self._leading is None:
             return None
         now = self._paced.now()
+        self._inputs.heartbeat(now)
         passed, self._led_at = max(now - self._led_at, 0.0), now
         self._leading.until(now + within)
         if not self._running.attempt.running:  # it ended meanwhile: nobody leads any more
@@ -458,6 +470,16 @@ class Trainer:
         """Tell the loop that the window lives."""
         self._inputs.heartbeat(self._clock.now())
 
+    @property
+    def time(self) -> float:
+        """Time of the run [s]: slower than the wall's where a busy computer slows the world."""
+        return self._clock.now()
+
+    @property
+    def lost(self) -> float:
+        """Time of the wall by which the run's has fallen behind in this attempt [s]."""
+        return 0.0 if self._paced is None else self._paced.lost - self._lost_before
+
     def place(self, placed: PlacedPlan) -> None:
         """Take another plan or placement.
 
@@ -510,7 +532,7 @@ class Trainer:
 
     def _look(self) -> None:
         """Do one tick; a hand that the program leads needs no window that lives."""
-        if self._paced is not None:
+        if self._paced is not None and self._scripted:
             self.heartbeat()
         self.tick(self._clock.now())
 

@@ -12811,6 +12811,10 @@ frei wählbar</translation>
             <translation type="unfinished">Dieser Computer ist ausgelastet: Bilder kommen seltener.</translation>
         </message>
         <message>
+            <source>This computer is busy: needle, patient and clock run at {percent} % of their speed. It costs you nothing.</source>
+            <translation type="unfinished">Dieser Computer ist ausgelastet: Nadel, Patient und Uhr laufen mit {percent} % ihrer Geschwindigkeit. Das kostet Sie nichts.</translation>
+        </message>
+        <message>
             <source>Tip beyond the entry, along the needle; ◇ when it is not measured now</source>
             <translation type="unfinished">Spitze hinter dem Einstichpunkt, entlang der Nadel; ◇, wenn jetzt nicht gemessen</translation>
         </message>
@@ -13219,10 +13223,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source> (wheel towards you)</source>
             <translation type="unfinished"> (Rad zu Ihnen)</translation>
-        </message>
-        <message>
-            <source> and </source>
-            <translation type="unfinished"> und </translation>
         </message>
         <message>
             <source>Press F5 to start the attempt</source>

@@ -12811,6 +12811,10 @@ réglable</translation>
             <translation type="unfinished">Cet ordinateur est occupé : les images viennent moins souvent.</translation>
         </message>
         <message>
+            <source>This computer is busy: needle, patient and clock run at {percent} % of their speed. It costs you nothing.</source>
+            <translation type="unfinished">Cet ordinateur est occupé : aiguille, patient et horloge vont à {percent} % de leur vitesse. Cela ne vous coûte rien.</translation>
+        </message>
+        <message>
             <source>Tip beyond the entry, along the needle; ◇ when it is not measured now</source>
             <translation type="unfinished">Pointe au-delà du point d’entrée, le long de l’aiguille ; ◇ quand elle n’est pas mesurée</translation>
         </message>
@@ -13219,10 +13223,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source> (wheel towards you)</source>
             <translation type="unfinished"> (molette vers vous)</translation>
-        </message>
-        <message>
-            <source> and </source>
-            <translation type="unfinished"> et </translation>
         </message>
         <message>
             <source>Press F5 to start the attempt</source>

@@ -3,6 +3,7 @@
 import threading
 from dataclasses import replace
 from functools import cache
+from time import monotonic
 from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
@@ -76,6 +77,10 @@ class FakeTrainer:
 
     def lead(self, within):  # its time goes on by itself
         return None
+
+    @property
+    def time(self):
+        return monotonic()
 
     def arm(self): ...
     def disarm(self): ...

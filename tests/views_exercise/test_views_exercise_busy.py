@@ -5,10 +5,10 @@ from itertools import pairwise
 import pytest
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
-from app.session.display_load import LONGEST_S, OVER_S, WAIT_S, BusyWatch
+from app.session.display_load import LONGEST_S, OVER_S, WAIT_S, BusyWatch, WorldPace
 from app.session.machine import State
 from app.views.exercise.attempt_rail import AttemptRail
-from app.views.exercise.controller import LIGHT_MS, PERIOD_MS
+from app.views.exercise.controller import LIGHT_MS, PERIOD_MS, SHOWN_S
 
 PERIOD = 0.016
 
@@ -124,3 +124,82 @@ def test_the_rail_says_quietly_what_stands_still(qt):
     rail.set_busy(False)
     assert not rail._busy.isVisible()
     rail.deleteLater()
+
+
+def test_time_waits_for_what_a_person_is_shown_in_an_attempt_and_for_no_script(desk):
+    look(desk, 3, 0.016)
+    assert desk.trainer.told("lead") == []
+    desk.trainer.now = snapshot(desk.trainer.placed, state=State.ALIGNING)
+    look(desk, 3, 0.016)
+    assert desk.trainer.told("lead") == 3 * [("lead", SHOWN_S)]
+    desk.controller.lead("arm")
+    look(desk, 3, 0.016)
+    assert len(desk.trainer.told("lead")) == 3
+
+
+def test_a_slowed_world_is_spoken_of_and_no_longer_when_it_is_as_fast_as_the_wall(desk):
+    shares = []
+    desk.controller.slowed.connect(shares.append)
+    trainer = desk.trainer
+    trainer.now, trainer.paced = snapshot(trainer.placed, state=State.ALIGNING), 100.0
+
+    def go(count, world):
+        for _ in range(count):
+            trainer.paced += world
+            look(desk, 1, 0.02)
+
+    go(200, 0.02)
+    assert shares == []
+    go(200, 0.012)
+    assert shares[-1] == pytest.approx(0.6)
+    go(300, 0.02)
+    assert shares[-1] == 1.0
+    go(200, 0.005)
+    trainer.now = snapshot(trainer.placed, state=State.ENDED)
+    go(1, 0.005)
+    assert shares[-1] == 1.0
+
+
+def test_the_share_does_not_flicker_and_is_never_nothing():
+    pace, now, time, shares = WorldPace(), 0.0, 0.0, []
+    for i in range(2000):
+        now += 0.02
+        time += 0.02 * (0.62 if i % 2 else 0.58)
+        shares.append(pace.note(now, time))
+    assert set(shares[100:]) == {0.6}
+    for _ in range(500):
+        now += 0.02
+        shares.append(pace.note(now, time))
+    assert shares[-1] == pytest.approx(0.1)
+
+
+def test_the_rail_says_that_time_runs_slower_before_what_is_not_drawn(qt):
+    rail = AttemptRail()
+    rail.show()
+    rail.set_busy(True)
+    rail.set_slowed(0.6)
+    assert "60 %" in rail._busy.text()
+    rail.set_slowed(1.0)
+    assert "3D" in rail._busy.text()
+    rail.set_busy(False)
+    rail.set_slowed(0.5)
+    assert rail._busy.isVisible()
+    rail.set_slowed(1.0)
+    assert not rail._busy.isVisible()
+    rail.deleteLater()
+
+
+def test_what_is_held_moves_the_needle_by_its_own_slowed_time(desk):
+    trainer, pad = desk.trainer, desk.controller._views.bullseye.pad
+    trainer.paced, steps = 10.0, []
+    pad.feed.advanced.connect(steps.append)
+    pad.feed.press("key", True, False)
+    trainer.paced += 1.0
+    pad.feed.step()
+    steps.clear()
+    pad.feed.step()  # the wall went on, the needle's time did not
+    assert sum(steps) == 0.0
+    trainer.paced += 0.02
+    pad.feed.step()
+    assert sum(steps) == pytest.approx(0.02 * 0.02)
+    pad.let_go()

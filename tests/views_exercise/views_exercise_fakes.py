@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from time import monotonic
 from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
@@ -127,6 +128,17 @@ class FakeTrainer:
 
     def heartbeat(self) -> None:
         self.calls.append(("heartbeat",))
+
+    paced: float | None = None
+    """Its time where it waits for whoever leads; None where time goes on by itself."""
+
+    @property
+    def time(self) -> float:
+        return monotonic() if self.paced is None else self.paced
+
+    def lead(self, within: float) -> float | None:
+        self.calls.append(("lead", within))
+        return None if self.paced is None else 0.016
 
     def snapshot(self) -> Snapshot:
         return self.now

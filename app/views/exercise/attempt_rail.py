@@ -229,6 +229,7 @@ class AttemptRail(QWidget):
         self.panel = _quiet()
         self._place = QVBoxLayout()
         self._note, self._health, self._busy = (PlainLabel(self) for _ in range(3))
+        self._light = self._slow = ""
         self._lay_out()
         for part in (self._health, self._busy, self.pictures, self.drill):
             part.hide()
@@ -271,13 +272,27 @@ class AttemptRail(QWidget):
 
         `has_scene`: whether there is a 3D view to be seen.
         """
-        words = ""
+        self._light = ""
         if busy and has_scene:
-            words = tr("This computer is busy: the 3D view stands still.")
+            self._light = tr("This computer is busy: the 3D view stands still.")
         elif busy:
-            words = tr("This computer is busy: pictures come less often.")
+            self._light = tr("This computer is busy: pictures come less often.")
+        self._say_busy()
+
+    def set_slowed(self, share: float) -> None:
+        """Say that patient, needle and clock go on with a share of their speed; 1 for all of it."""
+        self._slow = ""
+        if share < 1.0:
+            self._slow = tr(
+                "This computer is busy: needle, patient and clock run at {percent} % of their "
+                "speed. It costs you nothing."
+            ).format(percent=round(100.0 * share))
+        self._say_busy()
+
+    def _say_busy(self) -> None:
+        words = self._slow or self._light  # the slower time is what the student feels
         self._busy.setText(words)
-        self._busy.setVisible(busy)
+        self._busy.setVisible(bool(words))
 
     def set_drill(self, words: str) -> None:
         """Name the drill that is done, above all else; empty where none is."""

@@ -234,6 +234,7 @@ class Conductor(QObject):
         self.controller.beginning.connect(self._as_the_exercise_says)
         self.controller.began.connect(lambda _: self._begin_attempt())
         self.controller.burdened.connect(self._lighten)
+        self.controller.slowed.connect(self._workspace.rail.set_slowed)
         self.controller.attached.connect(self._workspace.room.end)
         self.patient_changed.connect(self._workspace.scan_view.clear)
         self.scans.failed.connect(self.failed)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from time import monotonic
 from typing import Final
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
@@ -15,7 +16,7 @@ from app.core.events import Event
 from app.core.rate_meter import RateMeter
 from app.exercises.parts import ViewName
 from app.planning.placement import PlacedPlan
-from app.session.display_load import BusyWatch
+from app.session.display_load import BusyWatch, WorldPace
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
 from app.session.pad.readings import hand_pose, needle_line
@@ -208,6 +209,9 @@ PERIOD_MS: Final = 16
 LIGHT_MS: Final = 33
 """And so often where the computer is too busy."""
 
+SHOWN_S: Final = 0.1
+"""The simulated world of a person's attempt goes on for so long without having been shown [s]."""
+
 REST_MS: Final = 100
 """So often while robot and cameras rest, to see whether they still do."""
 
@@ -225,6 +229,7 @@ class ExerciseController(QObject):
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
         burdened(bool): the computer is too busy to draw everything in an attempt, or is no more.
+        slowed(float): the simulated world goes on with this share of the wall's speed; 1 for all.
         demonstrated(): what was only shown is over: nobody's attempt, of which nothing follows.
         failed(str): something that the user asked for did not work, in one line.
         worked(): something that the user asked for did.
@@ -244,6 +249,7 @@ class ExerciseController(QObject):
     began = Signal(str)
     finished = Signal(object)
     burdened = Signal(bool)
+    slowed = Signal(float)
     demonstrated = Signal()
     failed = Signal(str)
     worked = Signal()
@@ -264,6 +270,7 @@ class ExerciseController(QObject):
         self._timer = QTimer(self, interval=PERIOD_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.poll)
         self._busy, self._is_light = BusyWatch(), False
+        self._world, self._share = WorldPace(), 1.0
         self.rester = Rester(self)
         self.rester.changed.connect(self._take_rest)
         self.rester.failed.connect(lambda error: self._fail(translated(error)))
@@ -275,6 +282,8 @@ class ExerciseController(QObject):
         self.detach()
         self._run, self._seen = run, run.trainer.result
         self._beat = self._clock.now()
+        trainer = run.trainer
+        self._views.bullseye.pad.set_clock(lambda: trainer.time)
         self._display.begin()
         self._display.show_run(run)
         self._views.panel.set_ready(True)
@@ -293,6 +302,7 @@ class ExerciseController(QObject):
         self._views.panel.enable.set_wanted(False)  # lets go before the trainer is gone
         self._run, self._ending, self._quiet = None, False, False
         self._views.bullseye.set_scene(None, False)
+        self._views.bullseye.pad.set_clock(monotonic)
         self._views.panel.set_ready(False)
         self._views.panel.show_figures(None)
         self._views.status.show_items(())
@@ -371,6 +381,7 @@ class ExerciseController(QObject):
         if self.rester.rests(snapshot, now):
             return
         self._weigh(snapshot.state in RUNNING, now, late)
+        self._pace(run, snapshot, now)
         self._drain(run)
         self._display.take_hand(snapshot)
         # Nobody beyond this line knows more than may be told.
@@ -392,6 +403,18 @@ class ExerciseController(QObject):
             self._is_light = light = self._busy.is_light
             self._timer.setInterval(LIGHT_MS if light else PERIOD_MS)
             self.burdened.emit(light)
+
+    def _pace(self, run: ExerciseRun, snapshot: Snapshot, now: float) -> None:
+        """Let the simulated world of a person's attempt go no farther than he is shown it."""
+        by_hand = run.interactive and not (run.demonstrates or self._led_as)
+        share = 1.0
+        if by_hand and snapshot.state in RUNNING and run.trainer.lead(SHOWN_S) is not None:
+            share = self._world.note(now, run.trainer.time)
+        else:
+            self._world.begin()
+        if share != self._share:
+            self._share = share
+            self.slowed.emit(share)
 
     def _take_rest(self, rests: bool) -> None:
         """Look seldom while robot and cameras rest: what is shown stays as it is."""

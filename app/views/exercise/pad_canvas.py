@@ -5,7 +5,7 @@ order speaks of, and leaves a trace of its last second: a hand that trembles is 
 """
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import atan2, copysign, hypot, radians
 from time import monotonic
@@ -305,6 +305,11 @@ class PadCanvas(QWidget):
     def sizeHint(self) -> QSize:
         """Preferred size."""
         return QSize(360, 360)
+
+    def set_clock(self, clock: Callable[[], float]) -> None:
+        """Take the time [s] by which what is held moves the needle."""
+        self.feed.set_clock(clock)
+        self.turn.set_clock(clock)
 
     def set_scene(self, scene: PadScene | None) -> None:
         """Take a new path; None clears the pad."""

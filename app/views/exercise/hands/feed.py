@@ -68,6 +68,11 @@ class Feed(QObject):
         """Return whether somebody holds."""
         return self._holder is not None
 
+    def set_clock(self, clock: Callable[[], float]) -> None:
+        """Go by another time [s]: that of the needle, which a busy computer may slow."""
+        self.let_go()
+        self._clock = clock
+
     def press(self, holder: Hashable, inwards: bool, fine: bool) -> None:
         """Move by a step, and go on while `holder` holds; the last to press has it."""
         self._holder, self._sign, self._fine = holder, 1.0 if inwards else -1.0, fine
