@@ -22,6 +22,7 @@ from app.session.pad.readings import hand_pose, needle_line
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
+from app.session.transitions import PauseCause
 from app.views.exercise.axial_gauge import AxialGauge, axial_force, bone_crossed_mm
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.enable_switch import enabling
@@ -78,7 +79,7 @@ class ExerciseDisplay:
         self._figured: tuple[object, ...] = ()
         self._going: State | None = None
         self._aimed: PlacedPlan | None = None
-        self.is_led = self.is_absent = False
+        self.is_led = self.is_absent = self._was_paused = False
         self.rates = (0.0, 0.0)
         self.extra_items: list[Callable[[Snapshot], tuple[StatusItem, ...]]] = []
         self._rates = LoopRates()
@@ -86,6 +87,7 @@ class ExerciseDisplay:
     def begin(self) -> None:
         """Begin with another trainer."""
         self._rates, self._figured, self._going = LoopRates(), (), None
+        self._was_paused = False
 
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
@@ -104,10 +106,16 @@ class ExerciseDisplay:
     def take_hand(self, snapshot: Snapshot) -> None:
         """Let the simulated hand go on from where the loop has it; draws nothing.
 
-        While the needle is being brought out, the hand of the window goes with it.
+        While the needle is being brought out, the hand of the window goes with it; while the
+        attempt is paused it stands with it, so that nothing given meanwhile is made up for.
         """
         bullseye = self._views.bullseye
         led = snapshot.state is State.WITHDRAWING and not snapshot.ready
+        paused = snapshot.state is State.PAUSED
+        # Where it may go back, the loop is not yet where a movement of this moment leads.
+        stands = paused and not (snapshot.pause is PauseCause.CAMERAS and bullseye.is_moving)
+        led = led or stands or (self._was_paused and not paused)
+        self._was_paused = paused
         hand = hand_pose(snapshot) if led or bullseye.hand is None else None
         if hand is not None:
             bullseye.take_hand(hand)
