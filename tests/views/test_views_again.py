@@ -203,6 +203,24 @@ def test_again_where_the_student_plans_is_no_dead_end_after_plan_anew(
 
 
 @pytest.mark.long("journey")
+def test_a_plan_that_no_attempt_was_made_with_goes_on_without_a_question(
+    window, beginning, lesion, settle, monkeypatch
+):
+    asked = choose_answer(monkeypatch, "Cancel")
+    choose(window, OWN)
+    for _ in range(2):
+        press(window, Qt.Key.Key_Return)
+        assert settle(lambda: window.pages.currentWidget() is window.workspace)
+        assert settle(lambda: beginning.wish is BeginWish.NOTHING)
+        place_entry(window)
+        planned = window.editor.edit
+        window.show_start()
+        choose(window, OWN)
+    assert asked == []
+    assert window.editor.edit == planned
+
+
+@pytest.mark.long("journey")
 def test_again_with_the_same_plan_begins_on_the_plan_that_nobody_saved(
     window, beginning, lesion, settle, monkeypatch
 ):

@@ -13,7 +13,9 @@ from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.rate_meter import RateMeter
+from app.core.units import MILLIMETRE
 from app.exercises.parts import ViewName
+from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.display_load import BusyWatch
 from app.session.machine import RUNNING, State
@@ -188,6 +190,19 @@ class ExerciseDisplay:
             may = run.inspect is not None and run.shown.shows(ViewName.CAMERAS)
             seen = run.inspect(wanted.mask, wanted.epipolar) if may and run.inspect else None
             tracker.show_tracker(seen, tracker_figures(snapshot), now)
+
+
+def about_tip(run: ExerciseRun) -> ScanOrder:
+    """Return a control scan of as many slices as the exercise has, the needle's tip in the middle;
+    the middle of the plan where nobody knows the tip.
+    """
+    placed, pose = run.placed, run.trainer.snapshot().pose
+    plan = placed.plan
+    if pose.measured:
+        middle = float((placed.T_world_patient.inverse() @ pose.p_tip)[2]) / MILLIMETRE
+    else:
+        middle = 0.5 * float(plan.entry_mm[2] + plan.target_mm[2])
+    return run.guidance.order(middle)
 
 
 class LoopRates:
@@ -480,11 +495,12 @@ class ExerciseController(QObject):
             self._run.trainer.roll(step)
 
     def scan(self) -> None:
-        """Take a control scan: of the slices that are set, where scans guide; else count one."""
+        """Take a control scan: of the slices that are set, where scans guide; else about the tip."""
         run = self._run
         if run is not None:
             try:
-                run.trainer.scan(None if run.shown.live else self._views.panel.scan.order)
+                live = run.shown.live
+                run.trainer.scan(about_tip(run) if live else self._views.panel.scan.order)
             except AcusError as error:
                 self._fail(translated(error))
                 return

@@ -58,7 +58,7 @@ class AttemptActions(QWidget):
         super().__init__(parent)
         self.start = _button(tr("Start attempt"), _starts())
         self.start.setProperty("role", "primary")
-        self.scan = _button(tr("Control scan (S)"), _counts())
+        self.scan = _button(tr("Control scan (S)"), _takes_here())
         self.end = _button(tr("End attempt (Enter)"), tr("The needle stays as it is and is scored"))
         self.abort = _button(
             tr("Abort (hold Esc)"),
@@ -74,8 +74,8 @@ class AttemptActions(QWidget):
         self.show_state(None, False)
 
     def set_pedal(self, scans: bool) -> None:
-        """Say what the scan's key does: it takes slices, or counts a scan only."""
-        self.scan.setToolTip(literal(_takes() if scans else _counts()))
+        """Say what the scan's key does: it takes the slices that are set, or those about the tip."""
+        self.scan.setToolTip(literal(_takes() if scans else _takes_here()))
 
     def watch(self, window: QWidget) -> None:
         """Listen for Esc held down anywhere in `window`."""
@@ -148,8 +148,10 @@ def _starts() -> str:
     return tr("Arm the robot and begin recording (F5)")
 
 
-def _counts() -> str:
-    return tr("Counts a scan and keeps the needle's place with it")
+def _takes_here() -> str:
+    return tr(
+        "Takes a scan about the needle's tip and shows it in place of the live pictures; it is counted"
+    )
 
 
 def _takes() -> str:
