@@ -7,15 +7,14 @@ from math import degrees, remainder, tau
 from typing import Final
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, QRegularExpression, QSignalBlocker, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QKeySequence, QRegularExpressionValidator, QShortcut
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
     QFrame,
     QGridLayout,
     QHBoxLayout,
-    QLineEdit,
     QPushButton,
     QSizePolicy,
     QVBoxLayout,
@@ -38,6 +37,7 @@ from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.stages import Steps
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
+from app.views.kit.lines import PseudonymLine
 from app.views.kit.parts import FittingButton, PlainLabel, add_row
 from app.views.kit.text import literal, tr, translated
 
@@ -347,10 +347,6 @@ class BreathCommand(QWidget):
         self.asked.emit(self._wish)
 
 
-PSEUDONYM: Final = r"([A-Za-z0-9][A-Za-z0-9._-]{0,31})?"
-"""What a pseudonym may look like; empty for an anonymous attempt."""
-
-
 TELLING_NOTHING: Final = frozenset({"elapsed", "scans"})
 """Read-outs that say nothing of where the needle is."""
 
@@ -422,7 +418,7 @@ class ExercisePanel(QWidget):
         self._telling: frozenset[str] | None = None
         self._offsets = self._forceful = True
         self.exercise = QComboBox(self)
-        self.student = QLineEdit(self)
+        self.student = PseudonymLine(self)
         self._title = PlainLabel(self)
         self._title.setProperty("role", "heading")
         self._title.setWordWrap(True)
@@ -614,12 +610,7 @@ class ExercisePanel(QWidget):
             self.start_changed.emit()
 
     def _prepare_inputs(self) -> None:
-        pattern = QRegularExpression(f"^{PSEUDONYM}$")
-        self.student.setValidator(QRegularExpressionValidator(pattern, self.student))
         self.student.setPlaceholderText(tr("anonymous"))
-        self.student.setToolTip(
-            tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
-        )
         self._note.setWordWrap(True)
         self._note.setStyleSheet(f"color: {theme.WARNING};")
         self._note.hide()
