@@ -611,6 +611,7 @@ class Trainer:
                 recording,
                 clearance.reason if clearance is not None else "",
                 withdrawal.words or self._running.pause_words,
+                self._simulated,
             ),
             held_arming=self._arming.held,
             clearance=clearance,

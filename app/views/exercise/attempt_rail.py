@@ -273,9 +273,9 @@ class AttemptRail(QWidget):
         """
         words = ""
         if busy and has_scene:
-            words = tr("This computer is busy: the 3D view stands still.")
+            words = tr("This computer is busy: the 3D view stands still. Close other programs.")
         elif busy:
-            words = tr("This computer is busy: pictures come less often.")
+            words = tr("This computer is busy: pictures come less often. Close other programs.")
         self._busy.setText(words)
         self._busy.setVisible(busy)
 

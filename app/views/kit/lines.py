@@ -65,8 +65,8 @@ class _Pseudonym(QValidator):
         """Take what records take; spaces within, pasted ones too, as underscores."""
         lead = len(text) - len(text.lstrip())
         written, place = _SPACE.sub("_", text[lead:]), max(0, place - lead)
-        fits = _ALLOWED.fullmatch(written) is not None
-        if lead and not written:
-            fits = False  # nothing but spaces
-        state = QValidator.State.Acceptable if fits else QValidator.State.Invalid
-        return state, written, place
+        fits = _ALLOWED.fullmatch(written) is not None and not (lead and not written)
+        if not fits:
+            return QValidator.State.Invalid, written, place
+        same = written == text  # what stands there with a space is only on its way
+        return QValidator.State.Acceptable if same else QValidator.State.Intermediate, written, place
