@@ -16,6 +16,7 @@ from app.session.machine import Attempt
 from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
 from app.session.result import AttemptResult
+from app.session.snapshot import DRAWN_LATE
 from app.session.transitions import (
     DEFAULT,
     KIND,
@@ -28,7 +29,6 @@ from app.session.transitions import (
     classify,
     paused_words,
 )
-from app.session.snapshot import DRAWN_LATE
 from app.session.withdrawal import OutsideBy
 
 STEADY: Final = 1.0

@@ -73,7 +73,11 @@ class StillHand:
         return True
 
     def follow(
-        self, cause: PauseCause | None, device: DeviceState | None, pose: NeedlePose, simulated: bool
+        self,
+        cause: PauseCause | None,
+        device: DeviceState | None,
+        pose: NeedlePose,
+        simulated: bool,
     ) -> None:
         """Look once: let the hand stand as a pause begins, and obey again once it is over.
 

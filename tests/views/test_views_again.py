@@ -161,7 +161,9 @@ def test_an_attempt_begins_with_the_exercises_own_view_of_the_ct(window, patient
     pane = window.workspace.panes[0]
 
     def whole():
-        fit = SliceCamera.fit(pane.canvas.plane.home_mm, (pane.canvas.width(), pane.canvas.height()))
+        fit = SliceCamera.fit(
+            pane.canvas.plane.home_mm, (pane.canvas.width(), pane.canvas.height())
+        )
         return pane.canvas.camera == fit
 
     for _ in range(2):  # and again

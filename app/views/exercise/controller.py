@@ -495,7 +495,7 @@ class ExerciseController(QObject):
             self._run.trainer.roll(step)
 
     def scan(self) -> None:
-        """Take a control scan: of the slices that are set, where scans guide; else about the tip."""
+        """Take a control scan: the slices that are set, where scans guide; else about the tip."""
         run = self._run
         if run is not None:
             try:

@@ -74,7 +74,7 @@ class AttemptActions(QWidget):
         self.show_state(None, False)
 
     def set_pedal(self, scans: bool) -> None:
-        """Say what the scan's key does: it takes the slices that are set, or those about the tip."""
+        """Say what the scan's key does: it takes the slices that are set, or those at the tip."""
         self.scan.setToolTip(literal(_takes() if scans else _takes_here()))
 
     def watch(self, window: QWidget) -> None:
@@ -150,7 +150,7 @@ def _starts() -> str:
 
 def _takes_here() -> str:
     return tr(
-        "Takes a scan about the needle's tip and shows it in place of the live pictures; it is counted"
+        "Takes a scan about the needle's tip, counts it, and shows it in place of the live pictures"
     )
 
 
@@ -590,7 +590,7 @@ class ExercisePanel(QWidget):
         """Show who is signed in: nobody types over that."""
         if ACCESS.student is not None:
             self._typed = self._typed if self._signed_in else self.student.text()
-            self.student.setText(ACCESS.student.pseudonym)
+            self.student.show_known(ACCESS.student.pseudonym)
         elif self._signed_in:
             self.student.setText(self._typed)
         self._signed_in = ACCESS.student is not None

@@ -114,7 +114,11 @@ def tracker_status(snapshot: Snapshot) -> StatusItem:
         return no_cameras_item()
     age = inf if statistics.age is None else statistics.age
     return tracker_item(
-        statistics.rate, statistics.valid_share, age, problem(statistics, snapshot.simulated), snapshot.simulated
+        statistics.rate,
+        statistics.valid_share,
+        age,
+        problem(statistics, snapshot.simulated),
+        snapshot.simulated,
     )
 
 

@@ -229,9 +229,7 @@ def robot_item(
             tr("Robot held back: {why}", why=tr("the depth is not certain")),
         )
     elif Verdict.BAD in verdicts or Verdict.WARNING in verdicts:
-        verdict, words = Verdict.WARNING, tr(
-            "Robot ready, computer busy: close other programs"
-        )
+        verdict, words = Verdict.WARNING, tr("Robot ready, computer busy: close other programs")
     else:
         verdict, words = Verdict.GOOD, ready
     guard = tr("acts: the force is weakened or damped") if guard_acts else tr("at rest")

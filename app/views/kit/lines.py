@@ -48,9 +48,20 @@ class PseudonymLine(QLineEdit):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setValidator(_Pseudonym(self))
-        self.setToolTip(literal(tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")))
+        self._rule = _Pseudonym(self)
+        self.setValidator(self._rule)
+        self.setToolTip(
+            literal(
+                tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
+            )
+        )
         self.inputRejected.connect(self._say)
+
+    def show_known(self, name: str) -> None:
+        """Show the name of somebody who is on a list already, as it is."""
+        self.setValidator(None)  # type: ignore[arg-type]
+        self.setText(name)
+        self.setValidator(self._rule)
 
     def _say(self) -> None:
         words = tr(
@@ -69,4 +80,8 @@ class _Pseudonym(QValidator):
         if not fits:
             return QValidator.State.Invalid, written, place
         same = written == text  # what stands there with a space is only on its way
-        return QValidator.State.Acceptable if same else QValidator.State.Intermediate, written, place
+        return (
+            QValidator.State.Acceptable if same else QValidator.State.Intermediate,
+            written,
+            place,
+        )
