@@ -161,6 +161,20 @@ def test_what_the_hand_is_given_in_a_pause_is_not_made_up_for_after_it(desk, cau
     assert desk.trainer.told("hand")[-1][3] == pytest.approx(0.03)
 
 
+def test_where_the_cameras_do_not_see_the_needle_the_hand_of_a_pause_may_go_back(desk):
+    stands = DeviceState.from_row(row(hand_depth=0.03, hand_holds=1.0))
+    desk.trainer.now = snapshot(state=State.PAUSED, pause=PauseCause.CAMERAS, device=stands)
+    desk.controller.poll()
+    bullseye = desk.views.bullseye
+    bullseye.pad.advanced.emit(-1e-3)
+    desk.controller.poll()  # before the loop shows it
+    QTest.qWait(40)
+    assert desk.trainer.told("hand")[-1][3] == pytest.approx(0.029)
+    QTest.qWait(250)
+    desk.controller.poll()  # and then it stands where the loop has it
+    assert bullseye.hand.depth == pytest.approx(0.03)
+
+
 def test_dial_scan_abort_and_hand_reach_the_trainer(desk):
     desk.controller.poll()
     desk.controller.begin("x")
