@@ -104,6 +104,34 @@ def test_a_wild_mouse_voids_nothing(
         student.close()
 
 
+def test_a_pause_stops_the_needle_where_it_is_and_what_is_pushed_in_it_is_lost(
+    tmp_path: Path,
+) -> None:
+    student = Student(tmp_path)
+    try:
+        student.trainer.begin()
+        student.pause(1200)
+        student.do("wheel", (40.0, 0.0), 500)
+        student.busy(940)
+        x, y, _ = student.hand.pose.direction.tolist()
+        student.trainer.hand(x, y, 0.08)  # far more than the hand comes in what is left
+        while student.trainer.snapshot().state is not State.PAUSED:
+            student.busy(10)
+        row = student.rig.loop.latest().row
+        before = float(row[sv.PLANT_DEPTH])
+        assert before < 0.06, "it is still on its way"
+        for k in range(40):  # now the window is there again
+            student.trainer.hand(x, y, 0.08 + 1e-3 * k)
+            student.trainer.heartbeat()
+            student._pass(10)
+        assert student.trainer.snapshot().state is State.PAUSED
+        student.pause(600)
+        assert student.trainer.snapshot().state is not State.PAUSED
+        assert abs(student.rig.loop.latest().row[sv.PLANT_DEPTH] - before) < 3e-3
+    finally:
+        student.close()
+
+
 @pytest.mark.parametrize(("lean", "depth"), [(0.15, 0.0), (0.3, 0.03), (0.25, -0.015), (0.2, 0.06)])
 def test_a_hand_that_lets_go_still_ends_in_the_fault(
     tmp_path: Path, lean: float, depth: float

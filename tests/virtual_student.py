@@ -90,8 +90,8 @@ class Student:
 
     def wish(self, milliseconds: int = INTENT) -> None:
         """Pass on where the hand is wanted; let time pass. A needle that is being brought out
-        takes the hand with it, as it takes the window's."""
-        if self.trainer.snapshot().state is State.WITHDRAWING:
+        takes the hand with it, as it takes the window's; in a pause both stand."""
+        if self.trainer.snapshot().state in (State.WITHDRAWING, State.PAUSED):
             row = self.rig.loop.latest().row
             direction = downward(row[sv.HAND_X], row[sv.HAND_Y])
             self.hand.follow(direction, float(row[sv.HAND_DEPTH]))

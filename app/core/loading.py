@@ -1,5 +1,6 @@
 """Loading heavy modules beside the window, one thread at a time."""
 
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -59,16 +60,31 @@ class CompiledKernels:
 COMPILED: Final = CompiledKernels()
 
 
+def is_loaded(name: str) -> bool:
+    """Return whether a module has been imported, to its end and not only begun."""
+    module = sys.modules.get(name)
+    spec = getattr(module, "__spec__", None)
+    return module is not None and not getattr(spec, "_initializing", False)
+
+
 @contextmanager
-def turn(progress: Progress) -> Iterator[None]:
+def turn(progress: Progress, *names: str) -> Iterator[None]:
     """Hold `ONE_AT_A_TIME`; as long as somebody else loads, say so and how long already.
 
     A first start compiles kernels while it imports them: whoever waits for that must be told, and
-    must be able to give up.
+    must be able to give up. Whoever wants modules alone that are loaded already need not wait:
+    another may hold the lock for a minute.
+
+    Args:
+        progress: told of the waiting; cancels it.
+        names: full names of all modules that are wanted; without any, the turn is waited for.
 
     Raises:
         Cancelled: if `progress` was cancelled before the turn came.
     """
+    if names and all(map(is_loaded, names)):
+        yield
+        return
     begin = time.monotonic()
     progress.report(0.0)
     while not ONE_AT_A_TIME.acquire(timeout=_LOOK):

@@ -16,10 +16,12 @@ from app.session.machine import Attempt
 from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
 from app.session.result import AttemptResult
+from app.session.snapshot import DRAWN_LATE
 from app.session.transitions import (
     DEFAULT,
     KIND,
     RESUMED_WORDS,
+    UNSEEN,
     Classifier,
     PauseCause,
     Pauses,
@@ -44,8 +46,12 @@ class DepthLoss:
         self._since: float | None = None
         self._lost = False
 
-    def message(self, pose: NeedlePose) -> str:
-        """Return what is to be told of this pose; empty for nothing."""
+    def message(self, pose: NeedlePose, drawn_late: bool = False) -> str:
+        """Return what is to be told of this pose; empty for nothing.
+
+        `drawn_late`: whether the cameras are simulated, and none of their pictures says that it
+        does not show the needle: this computer does not come to draw them.
+        """
         if pose.measured:
             self._since = pose.time if self._since is None else self._since
             if self._lost and pose.time - self._since >= STEADY:
@@ -55,10 +61,11 @@ class DepthLoss:
         was_measured, self._since = self._since is not None, None
         if pose.depth_source is DepthSource.MODEL and was_measured and not self._lost:
             self._lost = True
-            why = pose.doubt or sentence(
+            unseen = sentence(
                 "the cameras have not seen the needle for {tracker_hold:.0f} ms",
                 tracker_hold=TRACKER_HOLD * 1e3,
             )
+            why = pose.doubt or (DRAWN_LATE if drawn_late else unseen)
             return sentence(
                 "{reason}: from now on the depth is not measured, and the force is held back "
                 "as if the needle could be anywhere",
@@ -204,7 +211,8 @@ class RunningAttempt:
         event = pause or event
         if event is not None:
             self._change(event, seen.time)
-        lost_or_found = self._depth.message(seen.pose)
+        late = self._simulated and seen.fix_status not in UNSEEN
+        lost_or_found = self._depth.message(seen.pose, late)
         if lost_or_found:
             self.say("depth", lost_or_found, seen.time, {"source": seen.pose.depth_source.value})
         log.sample(seen.sample(self.attempt.state, inputs))

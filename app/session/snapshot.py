@@ -24,6 +24,7 @@ from app.session.pad.aim import CERTAIN, passes, spread
 from app.session.recorder import RecordingStatus
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
+from app.tracking.fix import FixStatus
 
 if TYPE_CHECKING:
     from app.device.control.timing import Timing
@@ -139,6 +140,12 @@ _FIX_TEXT = {
 }
 
 
+DRAWN_LATE: Final = sentence(
+    "this computer is busy: the pictures that it draws for its simulated cameras come late; close "
+    "other programs"
+)
+
+
 def unmeasured(pose: NeedlePose) -> str:
     """Say that nobody measures the depth now, why, and what follows from it."""
     why = f" ({pose.doubt})" if pose.doubt else ""
@@ -162,6 +169,7 @@ def advice(
     recording: RecordingStatus | None,
     held_back: str = "",
     waits: str = "",
+    simulated: bool = False,
 ) -> tuple[str, ...]:
     """Messages for the student, most urgent first.
 
@@ -173,6 +181,7 @@ def advice(
         recording: how the record stands.
         held_back: why the device is not cleared for full force; empty if it is.
         waits: why the attempt waits; empty if it does not.
+        simulated: whether this computer draws what the cameras see.
     """
     found = []
     if reason:
@@ -188,7 +197,8 @@ def advice(
     if pose.reason:
         found.append(pose.reason)
     if fix_status in _FIX_TEXT:
-        found.append(_FIX_TEXT[fix_status])
+        late = simulated and fix_status == FixStatus.NO_PICTURE
+        found.append(DRAWN_LATE if late else _FIX_TEXT[fix_status])
     if pose.bends:
         found.append(
             sentence(

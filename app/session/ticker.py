@@ -82,7 +82,7 @@ def standstill_words(seconds: float) -> str:
     """Say why the attempt ends."""
     return sentence(
         "the computer or the program slept for {seconds:.1f} s: what the needle did "
-        "meanwhile is not known",
+        "meanwhile is not known; close other programs, keep the computer awake, and begin again",
         seconds=seconds,
     )
 

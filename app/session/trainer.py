@@ -34,6 +34,7 @@ from app.session.risks import Risk
 from app.session.running import RunningAttempt
 from app.session.scored import scorer
 from app.session.snapshot import Snapshot, advice
+from app.session.still_hand import StillHand
 from app.session.ticker import (
     SLOWED,
     SLOWED_S,
@@ -125,6 +126,7 @@ class Trainer:
         self._breath = None if longest is None else BreathWatch(longest)
         self._running = RunningAttempt(self.events, simulated=simulated)
         self._withdrawal, self._beginnings = Withdrawal(self._inputs, start), beginnings
+        self._hand = StillHand(self._inputs)
         self._latest: Latest[Snapshot] = Latest()
         real = isinstance(self._clock, SystemClock)
         paced = self._clock if isinstance(self._clock, PacedClock) else None
@@ -261,6 +263,7 @@ class Trainer:
                 begins = self._beginnings.next(self._placed)
             out = self._withdrawal.begin(seen.device, seen.pose, now, hand == ARM, begins)
             self._running.begin(log, now, failure, out)
+            self._hand.forget()
             self._lost_before = 0.0 if self._paced is None else self._paced.lost
             if self._touching is not None:
                 words, data = begin_words(self._touching.state)
@@ -311,11 +314,11 @@ class Trainer:
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
         """Move the simulated hand: needle direction (x, y), depth [m], whether it holds.
 
-        It obeys nobody while it brings the needle out before an attempt.
+        It obeys nobody while it brings the needle out before an attempt, nor while one is paused
+        (`session.still_hand`).
         """
         self.resting.want()
-        if not self._withdrawal.moves_hand:
-            self._inputs.hand(x, y, depth, holds)
+        if not self._withdrawal.moves_hand and self._hand.move(x, y, depth, holds):
             self._withdrawal.follow(x, y, depth)
 
     def lead(self, within: float) -> float | None:
@@ -376,13 +379,15 @@ class Trainer:
     def roll(self, step: float) -> None:
         """Turn the needle about its axis by `step` [rad], clockwise seen from the hub.
 
-        Who measures the roll of a real needle writes the same input (`LoopInputs.roll`).
+        Nothing turns while an attempt is paused. Who measures the roll of a real needle writes the
+        same input (`LoopInputs.roll`).
 
         Raises:
             NumericalError: if it is not a number.
         """
         self.resting.want()
-        self._inputs.roll(self._inputs.rolled + step)
+        if not self._running.paused:
+            self._inputs.roll(self._inputs.rolled + step)
 
     def assistance(self, value: float) -> None:
         """Set the assistance: 1 full guidance, 0 nothing, -1 full repulsion.
@@ -569,6 +574,8 @@ class Trainer:
                 seen, self._inputs, self._arming.held, self._withdrawal.simulated
             )
             self._arming.pause(was_paused, self._running.paused)
+            cause, simulated = self._running.pause_cause, self._withdrawal.simulated
+            self._hand.follow(cause, seen.device, seen.pose, simulated)
             self._touch(seen)
             if self._breath is not None and (words := self._breath.observe(seen.device, now)):
                 self._running.say("breath", words, now, {"held": self._breath.now.held})
@@ -626,6 +633,7 @@ class Trainer:
                 recording,
                 clearance.reason if clearance is not None else "",
                 withdrawal.words or self._running.pause_words,
+                self._simulated,
             ),
             held_arming=self._arming.held,
             clearance=clearance,
@@ -656,6 +664,7 @@ class Trainer:
     def _finish(self, event: AttemptEvent, reason: str = "") -> AttemptResult:
         self.disarm()
         self._withdrawal.stop()
+        self._hand.forget()
         self._inputs.unsteady(0, 0)
         now = self._clock.now()
         if self._paced is not None and (lost := self._paced.lost - self._lost_before) > SLOWED_S:

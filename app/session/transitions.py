@@ -8,8 +8,8 @@ seconds; outside the body nothing pauses for it, nor while the marker is still i
 busy or blocked, and nobody sees what the needle does. *Hand*: the loop has cut the force because
 the needle moved as if nobody held it, but the simulated hand holds it: its springs let the needle
 swing (a hand that is really there says so itself, by a switch that it holds, or ends the attempt).
-Forces are off and the clock stands still; the attempt goes on where it was once the cause has been
-gone for `BACK` seconds without a break.
+Forces are off, clock and simulated hand stand still; the attempt goes on where it was once the
+cause has been gone for `BACK` seconds without a break.
 
 What the cameras cost the student may void a score (`Rules.maximum_pause`); a busy window and a
 simulated hand are the program's own trouble and cost nothing.
@@ -170,8 +170,8 @@ PAUSED_WORDS: Final = {
         "off and the clock stands still; close other programs"
     ),
     PauseCause.WINDOW: sentence(
-        "paused: the window was busy for a second; forces are off and the clock stands still; the "
-        "attempt goes on by itself"
+        "paused: the window stood still for a second, as this computer is busy; forces are off and "
+        "the clock stands still; close other programs; the attempt goes on by itself"
     ),
     PauseCause.HAND: sentence(
         "paused: the needle swung in the simulated hand as if nobody held it, so its force was "

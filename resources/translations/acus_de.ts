@@ -6332,6 +6332,10 @@
             <translation type="unfinished">kein Abtastwert dieses Versuchs hat eine Richtung der Nadel</translation>
         </message>
         <message>
+            <source>this computer is busy: the pictures that it draws for its simulated cameras come late; close other programs</source>
+            <translation type="unfinished">dieser Computer ist ausgelastet: Die Bilder, die er für seine simulierten Kameras zeichnet, kommen zu spät; schließen Sie andere Programme</translation>
+        </message>
+        <message>
             <source>depth not measured{reason}</source>
             <translation type="unfinished">Tiefe nicht gemessen{reason}</translation>
         </message>
@@ -6424,8 +6428,8 @@
             <translation type="unfinished">dieser Computer war um {seconds:.0f} s zu langsam: Roboter, Kameras und Hand wurden mitverlangsamt, und die Bewertung ist, was sie sonst auch wäre</translation>
         </message>
         <message>
-            <source>the computer or the program slept for {seconds:.1f} s: what the needle did meanwhile is not known</source>
-            <translation type="unfinished">der Computer oder das Programm schlief {seconds:.1f} s lang: Was die Nadel in dieser Zeit tat, ist nicht bekannt</translation>
+            <source>the computer or the program slept for {seconds:.1f} s: what the needle did meanwhile is not known; close other programs, keep the computer awake, and begin again</source>
+            <translation type="unfinished">der Computer oder das Programm stand {seconds:.1f} s still: Was die Nadel unterdessen tat, ist nicht bekannt; schließen Sie andere Programme, halten Sie den Computer wach und beginnen Sie von neuem</translation>
         </message>
         <message>
             <source>no slot {name!r} in this record; it has {columns}</source>
@@ -12651,8 +12655,8 @@ aus der Ebene {c:+.1f}° (Pfad {d:+.1f}°)</translation>
             <translation type="unfinished">Roboter scharf schalten und Aufzeichnung beginnen (F5)</translation>
         </message>
         <message>
-            <source>Counts a scan and keeps the needle's place with it</source>
-            <translation type="unfinished">Zählt einen Scan und merkt sich dazu die Lage der Nadel</translation>
+            <source>Takes a scan about the needle's tip, counts it, and shows it in place of the live pictures</source>
+            <translation type="unfinished">Macht einen Scan um die Nadelspitze, zählt ihn und zeigt ihn anstelle der Live-Bilder</translation>
         </message>
         <message>
             <source>The pedal: takes the slices that are set below, with the needle where it is now</source>
@@ -12751,6 +12755,10 @@ frei wählbar</translation>
             <translation type="unfinished">Ein Pseudonym, nie ein Name: Es kommt in jede Aufzeichnung. Buchstaben, Ziffern, . _ -</translation>
         </message>
         <message>
+            <source>Up to 32 letters (A to Z), digits, . _ - are taken, first a letter or digit; a space becomes _.</source>
+            <translation type="unfinished">Bis zu 32 Buchstaben (A bis Z), Ziffern, . _ - werden angenommen, zuerst ein Buchstabe oder eine Ziffer; ein Leerzeichen wird zu _.</translation>
+        </message>
+        <message>
             <source>no cameras</source>
             <translation type="unfinished">keine Kameras</translation>
         </message>
@@ -12761,6 +12769,10 @@ frei wählbar</translation>
         <message>
             <source>marker still in the tube</source>
             <translation type="unfinished">Marker noch im Rohr</translation>
+        </message>
+        <message>
+            <source>pictures come late: this computer is busy, close other programs</source>
+            <translation type="unfinished">Bilder kommen zu spät: Dieser Computer ist ausgelastet, schließen Sie andere Programme</translation>
         </message>
         <message>
             <source>a picture is late</source>
@@ -12803,16 +12815,16 @@ frei wählbar</translation>
             <translation type="unfinished">Tiefe</translation>
         </message>
         <message>
-            <source>This computer is busy: the 3D view stands still.</source>
-            <translation type="unfinished">Dieser Computer ist ausgelastet: Die 3D-Ansicht steht still.</translation>
+            <source>This computer is busy: the 3D view stands still. Close other programs.</source>
+            <translation type="unfinished">Dieser Computer ist ausgelastet: Die 3D-Ansicht steht still. Schließen Sie andere Programme.</translation>
         </message>
         <message>
-            <source>This computer is busy: pictures come less often.</source>
-            <translation type="unfinished">Dieser Computer ist ausgelastet: Bilder kommen seltener.</translation>
+            <source>This computer is busy: pictures come less often. Close other programs.</source>
+            <translation type="unfinished">Dieser Computer ist ausgelastet: Bilder kommen seltener. Schließen Sie andere Programme.</translation>
         </message>
         <message>
-            <source>This computer is busy: needle, patient and clock run at {percent} % of their speed. It costs you nothing.</source>
-            <translation type="unfinished">Dieser Computer ist ausgelastet: Nadel, Patient und Uhr laufen mit {percent} % ihrer Geschwindigkeit. Das kostet Sie nichts.</translation>
+            <source>This computer is busy: needle, patient and clock run at {percent} % of their speed. It costs you nothing. Close other programs.</source>
+            <translation type="unfinished">Dieser Computer ist ausgelastet: Nadel, Patient und Uhr laufen mit {percent} % ihrer Geschwindigkeit. Das kostet Sie nichts. Schließen Sie andere Programme.</translation>
         </message>
         <message>
             <source>Tip beyond the entry, along the needle; ◇ when it is not measured now</source>
@@ -13029,8 +13041,16 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Roboter bereit</translation>
         </message>
         <message>
+            <source>the computer is too busy, close other programs</source>
+            <translation type="unfinished">der Computer ist zu ausgelastet, schließen Sie andere Programme</translation>
+        </message>
+        <message>
             <source>Robot held back: {why}</source>
             <translation type="unfinished">Roboter zurückgehalten: {why}</translation>
+        </message>
+        <message>
+            <source>Robot ready, computer busy: close other programs</source>
+            <translation type="unfinished">Roboter bereit, Computer ausgelastet: andere Programme schließen</translation>
         </message>
         <message>
             <source>Robot stopped: {why}</source>
@@ -13039,10 +13059,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Rate of the tracker, share of pictures in which both cameras saw the marker, age of the last such fix. The cameras are simulated: this computer draws what they see. Where their pictures come late, close other programs.</source>
             <translation type="unfinished">Rate des Trackers, Anteil der Bilder, auf denen beide Kameras den Marker sahen, Alter der letzten solchen Messung. Die Kameras sind simuliert: Dieser Computer zeichnet, was sie sehen. Kommen ihre Bilder zu spät, schließen Sie andere Programme.</translation>
-        </message>
-        <message>
-            <source>pictures come late: this computer is busy</source>
-            <translation type="unfinished">Bilder kommen zu spät: Dieser Computer ist ausgelastet</translation>
         </message>
         <message>
             <source>see the marker now and then</source>
@@ -13069,10 +13085,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">er antwortet nicht</translation>
         </message>
         <message>
-            <source>this window stood still</source>
-            <translation type="unfinished">dieses Fenster stand still</translation>
-        </message>
-        <message>
             <source>it calms the needle</source>
             <translation type="unfinished">er beruhigt die Nadel</translation>
         </message>
@@ -13083,10 +13095,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the depth is not certain</source>
             <translation type="unfinished">die Tiefe ist nicht sicher</translation>
-        </message>
-        <message>
-            <source>Robot ready, the computer is busy</source>
-            <translation type="unfinished">Roboter bereit, der Computer ist ausgelastet</translation>
         </message>
         <message>
             <source>acts: the force is weakened or damped</source>
@@ -13313,8 +13321,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Neigen Sie den Ansatz {sides}</translation>
         </message>
         <message>
-            <source>Paused: the window was busy; it goes on by itself.</source>
-            <translation type="unfinished">Pause: Das Fenster war ausgelastet; es geht von selbst weiter.</translation>
+            <source>Paused: the window stood still. This computer is busy: close other programs.</source>
+            <translation type="unfinished">Pause: Das Fenster stand still. Dieser Computer ist ausgelastet: Schließen Sie andere Programme.</translation>
+        </message>
+        <message>
+            <source>One moment: this computer is busy and its pictures come late. Close other programs.</source>
+            <translation type="unfinished">Einen Moment: Dieser Computer ist ausgelastet, seine Bilder kommen zu spät. Schließen Sie andere Programme.</translation>
         </message>
         <message>
             <source>Paused: the needle swings in the simulated hand; it goes on by itself.</source>
@@ -13323,10 +13335,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
             <translation type="unfinished">Pause: Die simulierten Kameras sehen die Nadel dort nicht. Bewegen Sie sie ein wenig zurück.</translation>
-        </message>
-        <message>
-            <source>One moment: nothing has told for an instant where the needle is.</source>
-            <translation type="unfinished">Einen Moment: Eben war nicht bekannt, wo die Nadel ist.</translation>
         </message>
         <message>
             <source>Paused: this computer is too busy. Close other programs; it goes on by itself.</source>
@@ -14976,6 +14984,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pläne (*{suffix})</translation>
         </message>
         <message>
+            <source>Plan without an attempt</source>
+            <translation type="unfinished">Plan ohne Versuch</translation>
+        </message>
+        <message>
+            <source>Leave the plan? No attempt has it.</source>
+            <translation type="unfinished">Den Plan verlassen? Kein Versuch enthält ihn.</translation>
+        </message>
+        <message>
             <source>Unsaved plan</source>
             <translation type="unfinished">Nicht gespeicherter Plan</translation>
         </message>
@@ -15102,6 +15118,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Place target</source>
             <translation type="unfinished">Ziel setzen</translation>
+        </message>
+        <message>
+            <source>the plan “{name}”, which no attempt has</source>
+            <translation type="unfinished">den Plan „{name}“, den kein Versuch enthält</translation>
         </message>
         <message>
             <source>the plan “{name}”, which has unsaved changes</source>
@@ -18574,8 +18594,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pause: Dieser Computer war zu langsam, um zu zeichnen, was seine eigenen simulierten Kameras sehen; die Kräfte sind aus und die Uhr steht; schließen Sie andere Programme</translation>
         </message>
         <message>
-            <source>paused: the window was busy for a second; forces are off and the clock stands still; the attempt goes on by itself</source>
-            <translation type="unfinished">Pause: Das Fenster war eine Sekunde lang beschäftigt; die Kräfte sind aus und die Uhr steht; der Versuch geht von selbst weiter</translation>
+            <source>paused: the window stood still for a second, as this computer is busy; forces are off and the clock stands still; close other programs; the attempt goes on by itself</source>
+            <translation type="unfinished">Pause: Das Fenster stand eine Sekunde still, weil dieser Computer ausgelastet ist; die Kräfte sind aus und die Uhr steht; schließen Sie andere Programme; der Versuch geht von selbst weiter</translation>
         </message>
         <message>
             <source>paused: the needle swung in the simulated hand as if nobody held it, so its force was cut; the clock stands still and the attempt goes on by itself</source>

@@ -6332,6 +6332,10 @@
             <translation type="unfinished">aucun échantillon de cet essai n’a de direction de l’aiguille</translation>
         </message>
         <message>
+            <source>this computer is busy: the pictures that it draws for its simulated cameras come late; close other programs</source>
+            <translation type="unfinished">cet ordinateur est occupé : les images qu’il dessine pour ses caméras simulées arrivent en retard ; fermez d’autres programmes</translation>
+        </message>
+        <message>
             <source>depth not measured{reason}</source>
             <translation type="unfinished">profondeur non mesurée{reason}</translation>
         </message>
@@ -6424,8 +6428,8 @@
             <translation type="unfinished">cet ordinateur a été trop lent de {seconds:.0f} s : le robot, les caméras et la main ont été ralentis d’autant, et la note est celle qu’elle aurait été</translation>
         </message>
         <message>
-            <source>the computer or the program slept for {seconds:.1f} s: what the needle did meanwhile is not known</source>
-            <translation type="unfinished">l’ordinateur ou le programme s’est endormi pendant {seconds:.1f} s : on ne sait pas ce que l’aiguille a fait entre-temps</translation>
+            <source>the computer or the program slept for {seconds:.1f} s: what the needle did meanwhile is not known; close other programs, keep the computer awake, and begin again</source>
+            <translation type="unfinished">l’ordinateur ou le programme s’est arrêté pendant {seconds:.1f} s : on ne sait pas ce qu’a fait l’aiguille entre-temps ; fermez d’autres programmes, gardez l’ordinateur éveillé et recommencez</translation>
         </message>
         <message>
             <source>no slot {name!r} in this record; it has {columns}</source>
@@ -12651,8 +12655,8 @@ hors du plan {c:+.1f}° (trajectoire {d:+.1f}°)</translation>
             <translation type="unfinished">Armer le robot et commencer l’enregistrement (F5)</translation>
         </message>
         <message>
-            <source>Counts a scan and keeps the needle's place with it</source>
-            <translation type="unfinished">Compte un scan et garde avec lui la position de l’aiguille</translation>
+            <source>Takes a scan about the needle's tip, counts it, and shows it in place of the live pictures</source>
+            <translation type="unfinished">Prend un scan autour de la pointe de l’aiguille, le compte et le montre à la place des images en direct</translation>
         </message>
         <message>
             <source>The pedal: takes the slices that are set below, with the needle where it is now</source>
@@ -12751,6 +12755,10 @@ réglable</translation>
             <translation type="unfinished">Un pseudonyme, jamais un nom : il va dans chaque enregistrement. Lettres, chiffres, . _ -</translation>
         </message>
         <message>
+            <source>Up to 32 letters (A to Z), digits, . _ - are taken, first a letter or digit; a space becomes _.</source>
+            <translation type="unfinished">Jusqu’à 32 lettres (A à Z), chiffres, . _ - sont acceptés, d’abord une lettre ou un chiffre ; une espace devient _.</translation>
+        </message>
+        <message>
             <source>no cameras</source>
             <translation type="unfinished">pas de caméras</translation>
         </message>
@@ -12761,6 +12769,10 @@ réglable</translation>
         <message>
             <source>marker still in the tube</source>
             <translation type="unfinished">marqueur encore dans le tube</translation>
+        </message>
+        <message>
+            <source>pictures come late: this computer is busy, close other programs</source>
+            <translation type="unfinished">les images arrivent en retard : cet ordinateur est occupé, fermez d’autres programmes</translation>
         </message>
         <message>
             <source>a picture is late</source>
@@ -12803,16 +12815,16 @@ réglable</translation>
             <translation type="unfinished">Profondeur</translation>
         </message>
         <message>
-            <source>This computer is busy: the 3D view stands still.</source>
-            <translation type="unfinished">Cet ordinateur est occupé : la vue 3D est figée.</translation>
+            <source>This computer is busy: the 3D view stands still. Close other programs.</source>
+            <translation type="unfinished">Cet ordinateur est occupé : la vue 3D est immobile. Fermez d’autres programmes.</translation>
         </message>
         <message>
-            <source>This computer is busy: pictures come less often.</source>
-            <translation type="unfinished">Cet ordinateur est occupé : les images viennent moins souvent.</translation>
+            <source>This computer is busy: pictures come less often. Close other programs.</source>
+            <translation type="unfinished">Cet ordinateur est occupé : les images arrivent moins souvent. Fermez d’autres programmes.</translation>
         </message>
         <message>
-            <source>This computer is busy: needle, patient and clock run at {percent} % of their speed. It costs you nothing.</source>
-            <translation type="unfinished">Cet ordinateur est occupé : aiguille, patient et horloge vont à {percent} % de leur vitesse. Cela ne vous coûte rien.</translation>
+            <source>This computer is busy: needle, patient and clock run at {percent} % of their speed. It costs you nothing. Close other programs.</source>
+            <translation type="unfinished">Cet ordinateur est occupé : aiguille, patient et horloge vont à {percent} % de leur vitesse. Cela ne vous coûte rien. Fermez les autres programmes.</translation>
         </message>
         <message>
             <source>Tip beyond the entry, along the needle; ◇ when it is not measured now</source>
@@ -13029,8 +13041,16 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Robot prêt</translation>
         </message>
         <message>
+            <source>the computer is too busy, close other programs</source>
+            <translation type="unfinished">l’ordinateur est trop occupé, fermez d’autres programmes</translation>
+        </message>
+        <message>
             <source>Robot held back: {why}</source>
             <translation type="unfinished">Robot retenu : {why}</translation>
+        </message>
+        <message>
+            <source>Robot ready, computer busy: close other programs</source>
+            <translation type="unfinished">Robot prêt, ordinateur occupé : fermez d’autres programmes</translation>
         </message>
         <message>
             <source>Robot stopped: {why}</source>
@@ -13039,10 +13059,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Rate of the tracker, share of pictures in which both cameras saw the marker, age of the last such fix. The cameras are simulated: this computer draws what they see. Where their pictures come late, close other programs.</source>
             <translation type="unfinished">Cadence du suivi, part des images où les deux caméras ont vu le marqueur, âge de la dernière mesure de ce genre. Les caméras sont simulées : cet ordinateur dessine ce qu’elles voient. Si leurs images arrivent en retard, fermez d’autres programmes.</translation>
-        </message>
-        <message>
-            <source>pictures come late: this computer is busy</source>
-            <translation type="unfinished">les images arrivent en retard : cet ordinateur est occupé</translation>
         </message>
         <message>
             <source>see the marker now and then</source>
@@ -13069,10 +13085,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">il ne répond pas</translation>
         </message>
         <message>
-            <source>this window stood still</source>
-            <translation type="unfinished">cette fenêtre était figée</translation>
-        </message>
-        <message>
             <source>it calms the needle</source>
             <translation type="unfinished">il calme l’aiguille</translation>
         </message>
@@ -13083,10 +13095,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>the depth is not certain</source>
             <translation type="unfinished">la profondeur n’est pas certaine</translation>
-        </message>
-        <message>
-            <source>Robot ready, the computer is busy</source>
-            <translation type="unfinished">Robot prêt, l’ordinateur est occupé</translation>
         </message>
         <message>
             <source>acts: the force is weakened or damped</source>
@@ -13313,8 +13321,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Inclinez l’embase vers {sides}</translation>
         </message>
         <message>
-            <source>Paused: the window was busy; it goes on by itself.</source>
-            <translation type="unfinished">En pause : la fenêtre était occupée ; l’essai reprend de lui-même.</translation>
+            <source>Paused: the window stood still. This computer is busy: close other programs.</source>
+            <translation type="unfinished">En pause : la fenêtre s’est arrêtée. Cet ordinateur est occupé : fermez d’autres programmes.</translation>
+        </message>
+        <message>
+            <source>One moment: this computer is busy and its pictures come late. Close other programs.</source>
+            <translation type="unfinished">Un instant : cet ordinateur est occupé et ses images arrivent en retard. Fermez d’autres programmes.</translation>
         </message>
         <message>
             <source>Paused: the needle swings in the simulated hand; it goes on by itself.</source>
@@ -13323,10 +13335,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
             <translation type="unfinished">En pause : les caméras simulées ne voient pas l’aiguille à cet endroit. Ramenez-la un peu en arrière.</translation>
-        </message>
-        <message>
-            <source>One moment: nothing has told for an instant where the needle is.</source>
-            <translation type="unfinished">Un instant : la position de l’aiguille vient d’être perdue un moment.</translation>
         </message>
         <message>
             <source>Paused: this computer is too busy. Close other programs; it goes on by itself.</source>
@@ -14976,6 +14984,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Plans (*{suffix})</translation>
         </message>
         <message>
+            <source>Plan without an attempt</source>
+            <translation type="unfinished">Plan sans essai</translation>
+        </message>
+        <message>
+            <source>Leave the plan? No attempt has it.</source>
+            <translation type="unfinished">Quitter le plan ? Aucun essai ne le contient.</translation>
+        </message>
+        <message>
             <source>Unsaved plan</source>
             <translation type="unfinished">Plan non enregistré</translation>
         </message>
@@ -15102,6 +15118,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Place target</source>
             <translation type="unfinished">Placer la cible</translation>
+        </message>
+        <message>
+            <source>the plan “{name}”, which no attempt has</source>
+            <translation type="unfinished">le plan « {name} », qu’aucun essai ne contient</translation>
         </message>
         <message>
             <source>the plan “{name}”, which has unsaved changes</source>
@@ -18574,8 +18594,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Pause : cet ordinateur était trop lent pour dessiner ce que voient ses propres caméras simulées ; les forces sont coupées et le chronomètre est arrêté ; fermez d’autres programmes</translation>
         </message>
         <message>
-            <source>paused: the window was busy for a second; forces are off and the clock stands still; the attempt goes on by itself</source>
-            <translation type="unfinished">Pause : la fenêtre était occupée pendant une seconde ; les forces sont coupées et le chronomètre est arrêté ; l’essai reprend de lui-même</translation>
+            <source>paused: the window stood still for a second, as this computer is busy; forces are off and the clock stands still; close other programs; the attempt goes on by itself</source>
+            <translation type="unfinished">Pause : la fenêtre s’est arrêtée une seconde, car cet ordinateur est occupé ; les forces sont coupées et le chronomètre est arrêté ; fermez d’autres programmes ; l’essai reprend de lui-même</translation>
         </message>
         <message>
             <source>paused: the needle swung in the simulated hand as if nobody held it, so its force was cut; the clock stands still and the attempt goes on by itself</source>

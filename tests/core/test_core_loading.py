@@ -3,7 +3,7 @@ import threading
 
 import pytest
 
-from app.core.loading import ONE_AT_A_TIME, load_modules, turn
+from app.core.loading import ONE_AT_A_TIME, is_loaded, load_modules, turn
 from app.core.progress import Cancelled, Progress
 
 
@@ -98,3 +98,33 @@ def test_who_waits_for_another_to_load_may_give_up():
         pytest.fail("it was not its turn")
     free.set()
     thread.join(10.0)
+
+
+def test_who_wants_a_module_that_is_there_waits_for_nobody_and_one_that_is_begun_is_not_there(
+    package, monkeypatch
+):
+    load_modules([f"{package}.first"], Progress())
+    held, done, went = threading.Event(), threading.Event(), threading.Event()
+
+    def hold():
+        with ONE_AT_A_TIME:
+            held.set()
+            done.wait(30.0)
+
+    def want():
+        with turn(Progress(), package, f"{package}.first"):
+            went.set()
+
+    holder, asker = threading.Thread(target=hold), threading.Thread(target=want)
+    holder.start()
+    assert held.wait(10.0)
+    asker.start()
+    try:
+        assert went.wait(5.0)
+        assert not is_loaded(f"{package}.second")
+        monkeypatch.setattr(sys.modules[package].__spec__, "_initializing", True, raising=False)
+        assert not is_loaded(package)
+    finally:
+        done.set()
+        holder.join(10.0)
+        asker.join(10.0)

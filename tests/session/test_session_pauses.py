@@ -224,7 +224,10 @@ def test_a_busy_window_pauses_and_the_attempt_goes_on_where_it_was(
     assert snapshot.state is State.PAUSED
     assert (before.pause, snapshot.pause) == (None, PauseCause.WINDOW)
     assert not snapshot.armed
-    assert any("window was busy" in message for message in snapshot.messages)
+    assert any(
+        "computer is busy" in message and "close other programs" in message
+        for message in snapshot.messages
+    )
     assert snapshot.elapsed - before.elapsed == pytest.approx(1.0, abs=0.05)
     assert bench.run(0.4).state is State.PAUSED
     snapshot = bench.run(0.3)
@@ -389,3 +392,17 @@ def test_what_the_computer_could_not_do_is_named_in_the_conditions_and_excuses_n
     assert computer_of(slowed) == "too slow by 40 s: the simulated world was slowed with it"
     for bad in (float("nan"), "40", None, -3.0):
         assert computer_of([Event(1.0, "slowed", "", {"seconds": bad})]) == ""
+
+
+def test_pictures_that_this_computer_draws_late_are_told_as_its_trouble_and_not_the_cameras(
+    tmp_path: Path,
+) -> None:
+    bench = Bench(tmp_path, simulated=True)
+    bench.trainer.begin()
+    bench.run(2.0, 0.04)
+    bench.tracker.seen = np.inf  # no fix any more
+    bench.run(0.6)
+    (told,) = _events(bench, "depth")
+    assert "this computer is busy" in told
+    assert "close other programs" in told
+    bench.trainer.close()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMessageBox
-from window_rig import choose, press, state
+from window_rig import choose, plan, press, state
 
 from app.core import state_vector as sv
 from app.exercises.guidance import GuidanceMode, GuidancePart, StartingDial
@@ -23,6 +23,7 @@ from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS, Known
 from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
+from app.views.slices.camera import SliceCamera
 from app.views.slices.viewing import Tool
 
 ENTRY = (5.0, -18.0, 140.0)
@@ -152,6 +153,33 @@ def test_again_begins_off_the_path_like_the_first_wherever_the_hand_was_left(rea
     assert len({round(one, 2) for one in starts}) == 3, "each time elsewhere"
 
 
+def test_an_attempt_begins_with_the_exercises_own_view_of_the_ct(window, patient, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None)
+    viewing, controller = window.workspace.viewing, window.conductor.controller
+    pane = window.workspace.panes[0]
+
+    def whole():
+        fit = SliceCamera.fit(
+            pane.canvas.plane.home_mm, (pane.canvas.width(), pane.canvas.height())
+        )
+        return pane.canvas.camera == fit
+
+    for _ in range(2):  # and again
+        pane.canvas.set_camera(pane.canvas.camera.zoomed(4.0, 3.0, 2.0).panned(30.0, 20.0))
+        viewing.set_cursor((-15.0, -10.0, 120.0))
+        assert not whole()
+        controller.begin("")
+        settle(lambda: False, 0.1)
+        voxel = np.abs(np.array(viewing.cursor_mm) - window.editor.edit.draft.target_mm)
+        assert voxel.max() <= 1.0, "the target's voxel"
+        assert whole()
+        controller.run.trainer.state = State.ENDED
+        assert settle(lambda: not window.editor.locked)
+        controller.run.trainer.state = State.READY
+
+
 # --- what is missing is said, and F5 says it ------------------------------------------------------
 @pytest.mark.long("journey")
 def test_f5_while_robot_and_cameras_are_started_says_so_until_an_attempt_can_begin(
@@ -200,6 +228,24 @@ def test_again_where_the_student_plans_is_no_dead_end_after_plan_anew(
     assert state(window) is State.ENDED, "nothing begins by itself"
     press(window, Qt.Key.Key_F5)
     assert settle(lambda: state(window) is State.ALIGNING)
+
+
+@pytest.mark.long("journey")
+def test_a_plan_that_no_attempt_was_made_with_goes_on_without_a_question(
+    window, beginning, lesion, settle, monkeypatch
+):
+    asked = choose_answer(monkeypatch, "Cancel")
+    choose(window, OWN)
+    for _ in range(2):
+        press(window, Qt.Key.Key_Return)
+        assert settle(lambda: window.pages.currentWidget() is window.workspace)
+        assert settle(lambda: beginning.wish is BeginWish.NOTHING)
+        place_entry(window)
+        planned = window.editor.edit
+        window.show_start()
+        choose(window, OWN)
+    assert asked == []
+    assert window.editor.edit == planned
 
 
 @pytest.mark.long("journey")

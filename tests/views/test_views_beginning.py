@@ -6,6 +6,7 @@ pytest.importorskip("PySide6")
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLineEdit
 from window_rig import choose, press, state
 
 from app.core import state_vector as sv
@@ -18,6 +19,7 @@ from app.views.exercise.beginning import LINGER_S, TRAINEE_DONE, BeginWish
 from app.views.exercise.briefing import aid_words, locked_words, scored_words
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.roles import Role
+from app.views.shell.role_switch import RoleSwitch
 
 PHANTOM = Plan((-70.0, -109.0, 180.0), (-70.0, -20.0, 180.0), "phantom")
 
@@ -46,6 +48,40 @@ def test_enter_pressed_twice_begins_one_attempt(window, beginning, settle, servi
     beginning.begin()
     assert settle(lambda: state(window) is State.ALIGNING)
     assert len(services.opened) == 1
+
+
+@pytest.mark.parametrize(
+    ("key", "wanted"),
+    [
+        (Qt.Key.Key_Return, "begin_wanted"),
+        (Qt.Key.Key_L, "look_wanted"),
+        (Qt.Key.Key_D, "show_wanted"),
+        (Qt.Key.Key_Escape, "back_wanted"),
+    ],
+)
+def test_the_keys_of_the_briefing_work_wherever_the_focus_is_but_in_a_text(
+    window, beginning, key, wanted
+):
+    choose(window, "first-insertion")
+    page, heard = beginning.page, []
+    for name in ("begin_wanted", "look_wanted", "show_wanted", "back_wanted"):
+        getattr(page, name).disconnect()
+    getattr(page, wanted).connect(lambda: heard.append(wanted))
+    role = window.findChild(RoleSwitch).button
+    role.setFocus()
+    QTest.keyClick(role, key)
+    assert heard == [wanted]
+    QTest.keyClick(window, key)  # and where nothing has it
+    assert heard == [wanted] * 2
+    field = QLineEdit(window)
+    field.show()
+    field.setFocus()
+    QTest.keyClick(field, key)
+    assert heard == [wanted] * 2
+    field.hide()
+    page.hide()
+    QTest.keyClick(role, key)
+    assert heard == [wanted] * 2
 
 
 @pytest.mark.long("journey")

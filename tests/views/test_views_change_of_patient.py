@@ -37,6 +37,8 @@ from app.session.shown_views import Shown
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.run import ExerciseRun
+from app.views.kit.roles import Role
+from app.views.plan.feature import PlanFeature
 from app.views.robot.feature import RobotFeature
 from app.views.series.feature import SeriesFeature
 from app.views.shell.window import MainWindow
@@ -295,6 +297,64 @@ def test_what_would_be_replaced_is_named_and_cancelling_changes_nothing(
     assert window.editor.edit == before
     assert window.conductor.exercise.id == "first-insertion"
     assert window.workspace.exercise_panel.exercise.currentData() == "first-insertion"
+
+
+def test_a_student_is_asked_about_nothing_that_he_did_not_make(
+    window, patients, settle, answers, slow
+):
+    asked, _ = answers
+    window.roles.choose(Role.STUDENT)
+    with_attempt(window, patients[0], settle)
+    window.conductor.controller.run.trainer.state = State.ENDED
+    assert settle(lambda: not window.editor.locked)
+    assert window.editor.dirty  # his plan, which the attempt's record has
+    window.begin_exercise("thick-tissue")
+    assert window.open_ct.is_reading
+    assert asked == []
+
+
+def test_a_student_is_asked_about_his_plan_that_no_attempt_has_and_enter_keeps_it(
+    window, patients, settle, monkeypatch, slow
+):
+    asked, box = [], QMessageBox.StandardButton
+
+    def question(parent, title, text, choices, default):
+        asked.append((text, choices, default))
+        return default
+
+    monkeypatch.setattr(QMessageBox, "question", staticmethod(question))
+    window.roles.choose(Role.STUDENT)
+    window.show_patient(patients[0])
+    plan(window)
+    before = window.editor.edit
+    window.begin_exercise("thick-tissue")
+    assert not window.open_ct.is_reading
+    assert not window.context.shell.may_go()
+    (text, *first), (_, *second) = asked
+    assert OLD not in text
+    assert "no attempt has" in text
+    assert first == second == [box.Discard | box.Cancel, box.Cancel], "nothing is written"
+    assert window.editor.edit == before
+
+
+@pytest.mark.parametrize("role", [Role.INSTRUCTOR, Role.TECHNICIAN])
+def test_enter_on_a_question_about_a_plan_writes_no_file(window, patients, monkeypatch, role):
+    defaults, saved = [], []
+
+    def question(parent, title, text, choices, default):
+        defaults.append(default)
+        return default
+
+    monkeypatch.setattr(QMessageBox, "question", staticmethod(question))
+    monkeypatch.setattr(window.feature(PlanFeature).files, "save", lambda: saved.append(1))
+    window.roles.choose(role)
+    window.show_patient(patients[0])
+    plan(window)
+    window.begin_exercise("thick-tissue")
+    window.context.shell.may_go()
+    assert defaults == [QMessageBox.StandardButton.Cancel] * 2
+    assert saved == []
+    assert not window.open_ct.is_reading
 
 
 @pytest.mark.long("journey")

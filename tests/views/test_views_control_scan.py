@@ -289,6 +289,31 @@ def test_a_live_exercise_shows_neither_panel_nor_scan(window, patient, settle) -
     assert window.workspace.bullseye.isVisible()
 
 
+def test_a_scan_of_a_live_attempt_is_about_the_tip_and_fills_the_main_view(guided, settle) -> None:
+    window, trainer = guided
+    workspace, placed = window.workspace, trainer.placed
+    run = ExerciseRun(trainer, placed, window.runs.run.profile, guidance=GuidancePart(slices=5))
+    window.conductor._attach(run)
+    workspace.room.begin(live=True)
+    assert not workspace.scan_view.isVisible()
+    window.conductor.controller.scan()
+    ((_, order),) = trainer.told("scan")
+    way = trainer.now.pose.depth / placed.length  # on the path, or nearly: the planned points tell
+    entry, target = placed.plan.entry_mm, placed.plan.target_mm
+    assert order.slices == 5
+    assert order.centre_mm == pytest.approx(entry[2] + way * (target[2] - entry[2]), abs=3.0)
+    trainer.events.put(scan_event())
+    assert settle(lambda: workspace.scan_view.scan is not None)
+    assert workspace.room.shows_scan
+    assert settle(workspace.scan_view.isVisible)
+    assert not any(pane.isVisible() for pane in workspace.slices)
+    workspace.room.toggle_scan()
+    assert not workspace.scan_view.isVisible()
+    assert any(pane.isVisible() for pane in workspace.slices)
+    workspace.room.end()
+    assert not workspace.scan_view.isVisible()
+
+
 def test_an_assessment_guides_by_scans_unless_it_says_otherwise(window) -> None:
     exercise = next(iter(window.feature(ExerciseFeature).exercises.values()))
     assert exercise.guidance_mode is GuidanceMode.LIVE

@@ -6,7 +6,9 @@ from shiboken6 import isValid
 from views_exercise_attempts import review
 from window_rig import plan
 
+from app.exercises.library import load_exercise
 from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
 from app.views.kit import language
 from app.views.shell.language import Rebuilding, fill_language_menu
 from app.views.shell.window import MainWindow
@@ -83,6 +85,23 @@ def test_another_language_keeps_patient_plan_and_exercise(patient, rebuilding, s
     rebuilding.change("en")
     assert "&File" in menus(rebuilding.window)
     assert rebuilding.window.editor.edit.draft == drawn
+
+
+@pytest.mark.parametrize("attempted", [True, False])
+def test_another_language_knows_what_was_briefed_and_whether_the_plan_was_attempted(
+    patient, rebuilding, attempted
+):
+    window, exercise = rebuilding.window, load_exercise("plan-it-yourself")
+    window.conductor.set_exercise(exercise)
+    window.feature(ExerciseFeature).beginning.trust(exercise.id)
+    window.show_patient(patient)
+    plan(window)
+    if attempted:
+        window.editor.note_attempt()
+    rebuilding.change("de")
+    new = rebuilding.window
+    assert new.feature(ExerciseFeature).beginning.is_briefed(exercise)
+    assert new.editor.attempted is attempted
 
 
 def test_another_language_shows_the_debrief_that_was_shown(rebuilding, settle):

@@ -6,8 +6,11 @@ import threading
 import pytest
 from window_rig import plan
 
+from app.core.loading import ONE_AT_A_TIME
+from app.core.progress import Cancelled
 from app.exercises.library import load_exercise
 from app.imaging.errors import ImagingError
+from app.imaging.field.making import field_of
 from app.planning.draft import DraftPlan
 from app.views.kit import theme
 from app.views.plan.feature import PlanFeature
@@ -59,6 +62,56 @@ def test_a_way_that_cannot_be_looked_up_is_told_with_the_reason(window, panel, s
     plan(window)
     assert settle(lambda: "not known: no memory for it" in told(panel))
     assert told(panel).startswith("▲")
+
+
+@pytest.fixture
+def somebody_loads():
+    """Somebody who loads modules for as long as the test lasts, as a robot that starts does."""
+    held, done = threading.Event(), threading.Event()
+
+    def load():
+        with ONE_AT_A_TIME:
+            held.set()
+            done.wait(60.0)
+
+    thread = threading.Thread(target=load)
+    thread.start()
+    assert held.wait(10.0)
+    yield
+    done.set()
+    thread.join(10.0)
+
+
+def test_the_way_is_known_while_a_robot_still_loads(window, panel, settle, request):
+    request.getfixturevalue("somebody_loads")
+    plan(window)
+    assert settle(lambda: "on the way at" in told(panel))
+
+
+def test_a_way_that_waits_for_the_program_to_load_says_so(
+    window, panel, settle, request, monkeypatch
+):
+    monkeypatch.setattr("app.core.loading.is_loaded", lambda _: False)
+    monkeypatch.setattr("app.views.plan.way.SILENT_S", 0.1)
+    request.getfixturevalue("somebody_loads")
+    plan(window)
+    assert settle(lambda: "for the program to load" in told(panel))
+    assert told(panel).startswith("…  The robot can follow")
+
+
+def test_a_look_up_that_was_stopped_is_asked_for_again(window, panel, settle, monkeypatch):
+    honest, calls = field_of, []
+
+    def stopped_once(*given, **named):
+        calls.append(1)
+        if len(calls) == 1:
+            raise Cancelled("by somebody else")
+        return honest(*given, **named)
+
+    monkeypatch.setattr("app.imaging.field.making.field_of", stopped_once)
+    plan(window)
+    assert settle(lambda: "on the way at" in told(panel))
+    assert len(calls) == 2
 
 
 def test_another_patient_and_the_end_of_the_window_take_the_look_up_away(

@@ -3,12 +3,19 @@
 from itertools import pairwise
 
 import pytest
-from views_exercise_fakes import FakeTrainer, run, snapshot
+from views_exercise_attempts import placed_plan
+from views_exercise_fakes import FakeTrainer, pose, run, snapshot, statistics
 
 from app.session.display_load import LONGEST_S, OVER_S, WAIT_S, BusyWatch, WorldPace
 from app.session.machine import State
+from app.session.snapshot import NextStep, StepKind, advice
+from app.session.transitions import PauseCause, paused_words
+from app.tracking.fix import FixStatus
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.controller import LIGHT_MS, PERIOD_MS, SHOWN_S
+from app.views.exercise.readings import problem
+from app.views.exercise.status_items import tracker_item
+from app.views.exercise.steps import step_words
 
 PERIOD = 0.016
 
@@ -118,7 +125,9 @@ def test_the_rail_says_quietly_what_stands_still(qt):
     rail.show()
     rail.set_busy(True)
     assert rail._busy.isVisible()
-    assert rail._busy.text() == "This computer is busy: the 3D view stands still."
+    assert rail._busy.text() == (
+        "This computer is busy: the 3D view stands still. Close other programs."
+    )
     rail.set_busy(True, has_scene=False)
     assert "3D" not in rail._busy.text()
     rail.set_busy(False)
@@ -203,3 +212,25 @@ def test_what_is_held_moves_the_needle_by_its_own_slowed_time(desk):
     pad.feed.step()
     assert sum(steps) == pytest.approx(0.02 * 0.02)
     pad.let_go()
+
+
+@pytest.mark.parametrize("pause", [PauseCause.WINDOW, PauseCause.COMPUTER, None])
+def test_whoever_waits_for_a_busy_computer_reads_so_and_what_to_do(pause):
+    words = step_words(NextStep(StepKind.WAIT, pause=pause), by_mouse=True).lower()
+    late = statistics(status=FixStatus.NO_PICTURE, reason="")
+    said = [words, problem(late, simulated=True)]
+    said += advice(pose(placed_plan()), "no_picture", "", "", None, simulated=True)
+    if pause is not None:
+        said.append(paused_words(pause, simulated=True))
+    for one in said:
+        assert "busy" in one or "too slow" in one
+        assert "close other programs" in one
+
+
+def test_the_light_and_the_rail_say_what_to_do_about_a_busy_computer(qt):
+    assert tracker_item(30.0, 0.2, 0.1, "", simulated=True).plain.endswith("close other programs")
+    rail = AttemptRail()
+    for has_scene in (True, False):
+        rail.set_busy(True, has_scene)
+        assert "Close other programs" in rail._busy.text()
+    rail.deleteLater()

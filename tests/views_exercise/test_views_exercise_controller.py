@@ -8,12 +8,15 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from views_exercise_attempts import placed_plan
-from views_exercise_fakes import pose, run, snapshot
+from views_exercise_fakes import pose, row, run, snapshot
 
 from app.core.rate_meter import RateMeter
 from app.device.errors import LoopError
+from app.device.state import DeviceState
 from app.session.errors import IllegalTransitionError
 from app.session.machine import State
+from app.session.pad.hand import HandPose
+from app.session.transitions import PauseCause
 from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.markers.extractor import MarkerFix
 from app.tracking.tracked_picture import TrackedPicture
@@ -136,6 +139,40 @@ def test_aborting_disarms_at_once_and_writes_beside_the_window(desk):
     written.set()
     assert until(lambda: bool(results))
     assert len(desk.trainer.told("abort")) == len(results) == 1
+
+
+@pytest.mark.parametrize("cause", [PauseCause.WINDOW, PauseCause.COMPUTER, PauseCause.HAND])
+def test_what_the_hand_is_given_in_a_pause_is_not_made_up_for_after_it(desk, cause):
+    stands = DeviceState.from_row(row(hand_depth=0.03, hand_holds=1.0))
+    desk.trainer.now = snapshot(state=State.INSERTING, device=stands)
+    desk.controller.poll()
+    bullseye = desk.views.bullseye
+    bullseye.take_hand(HandPose(np.array([0.0, 0.0, -1.0]), 0.03, True))
+    for _ in range(8):  # while the window does not look yet
+        bullseye.pad.advanced.emit(1e-3)
+    desk.trainer.now = replace(desk.trainer.now, state=State.PAUSED, pause=cause)
+    desk.controller.poll()
+    for _ in range(8):
+        bullseye.pad.advanced.emit(1e-3)
+    desk.trainer.now = replace(desk.trainer.now, state=State.INSERTING, pause=None)
+    desk.controller.poll()
+    assert bullseye.hand.depth == pytest.approx(0.03)
+    QTest.qWait(40)
+    assert desk.trainer.told("hand")[-1][3] == pytest.approx(0.03)
+
+
+def test_where_the_cameras_do_not_see_the_needle_the_hand_of_a_pause_may_go_back(desk):
+    stands = DeviceState.from_row(row(hand_depth=0.03, hand_holds=1.0))
+    desk.trainer.now = snapshot(state=State.PAUSED, pause=PauseCause.CAMERAS, device=stands)
+    desk.controller.poll()
+    bullseye = desk.views.bullseye
+    bullseye.pad.advanced.emit(-1e-3)
+    desk.controller.poll()  # before the loop shows it
+    QTest.qWait(40)
+    assert desk.trainer.told("hand")[-1][3] == pytest.approx(0.029)
+    QTest.qWait(250)
+    desk.controller.poll()  # and then it stands where the loop has it
+    assert bullseye.hand.depth == pytest.approx(0.03)
 
 
 def test_dial_scan_abort_and_hand_reach_the_trainer(desk):

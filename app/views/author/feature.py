@@ -413,7 +413,7 @@ class AuthorFeature(Feature):
             tr("Exercise not kept"),
             literal(tr("Keep {what}?", what=self.unsaved())),
             box.Save | box.Discard | box.Cancel,
-            box.Save,
+            box.Cancel,  # Enter, perhaps meant for a page, writes nothing
         )
         return self.keep() if answer == box.Save else answer == box.Discard
 

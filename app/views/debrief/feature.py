@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from app.core.errors import AcusError
 from app.core.files import write_atomically
-from app.core.loading import ONE_AT_A_TIME
+from app.core.loading import turn
 from app.core.progress import Progress
 from app.exchange.csv_export import score_table, trajectory_table, write_csv
 from app.exercises.drill import ROUNDS, DrillKind
@@ -491,7 +491,7 @@ class AttemptCt(QObject):
             recipe, own = facts.recipe, volume.series.pseudonym
             if recipe is None or recipe == volume.recipe or facts.pseudonym != own:
                 return None
-            with ONE_AT_A_TIME:  # compiled parts: beside the window
+            with turn(progress, "app.imaging.reading"):  # compiled parts: beside the window
                 from app.imaging.reading import read_again
             again = read_again(volume.series, recipe, progress)
             return again if facts.is_of(again) else None
@@ -599,8 +599,8 @@ class ScanPictures(QObject):
         volume, recipe = patient.volume, review.ct.recipe
 
         def make(progress: Progress) -> Volume:
-            with ONE_AT_A_TIME:  # compiled parts: beside the window
-                from app.imaging.reading import read_again
+            with turn(progress, "app.imaging.reading", "app.imaging.scanned"):
+                from app.imaging.reading import read_again  # compiled parts
                 from app.imaging.scanned import scan_image
             ct = volume
             if recipe is not None and recipe != volume.recipe:  # the scan was of a mended one

@@ -274,9 +274,13 @@ class AttemptRail(QWidget):
         """
         self._light = ""
         if busy and has_scene:
-            self._light = tr("This computer is busy: the 3D view stands still.")
+            self._light = tr(
+                "This computer is busy: the 3D view stands still. Close other programs."
+            )
         elif busy:
-            self._light = tr("This computer is busy: pictures come less often.")
+            self._light = tr(
+                "This computer is busy: pictures come less often. Close other programs."
+            )
         self._say_busy()
 
     def set_slowed(self, share: float) -> None:
@@ -285,7 +289,7 @@ class AttemptRail(QWidget):
         if share < 1.0:
             self._slow = tr(
                 "This computer is busy: needle, patient and clock run at {percent} % of their "
-                "speed. It costs you nothing."
+                "speed. It costs you nothing. Close other programs."
             ).format(percent=round(100.0 * share))
         self._say_busy()
 

@@ -186,7 +186,7 @@ class Beginning(QObject):
     def go_on(self, identifier: str) -> None:
         """Begin again what was briefed already, at once; else show the briefing."""
         exercise = self._exercises().get(identifier)
-        if exercise is None or self._briefed != _key(exercise):
+        if exercise is None or not self.is_briefed(exercise):
             self.brief(identifier)
         else:
             self._begin_now(exercise)
@@ -209,6 +209,10 @@ class Beginning(QObject):
         self._end_wish()
         self.exercise, self._was_working = exercise, True
         self.begin()
+
+    def is_briefed(self, exercise: Exercise) -> bool:
+        """Return whether an exercise was begun from its briefing last."""
+        return self._briefed == _key(exercise)
 
     def trust(self, identifier: str) -> None:
         """Let an exercise be begun without its briefing: somebody else has told what it says."""
@@ -267,7 +271,7 @@ class Beginning(QObject):
         if taken is None or patient is None or not self._conductor.fits(patient):
             return False  # a CT of one's own: the exercise lends its device and tolerances only
         exercise = self._exercises().get(taken.id)
-        known = exercise is None or self._briefed == _key(exercise) or self._is_known(exercise)
+        known = exercise is None or self.is_briefed(exercise) or self._is_known(exercise)
         if exercise is None or known:
             return False
         self.exercise, self._was_working = exercise, self._shell.is_working

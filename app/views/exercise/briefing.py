@@ -28,6 +28,7 @@ from app.scoring.tolerance import Tolerance
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
+from app.views.kit.page_keys import PageKeys
 from app.views.kit.parts import FittingButton, PlainLabel, button, label
 from app.views.kit.roles import Role
 from app.views.kit.text import declared, listing, literal, number, tr, tr_n
@@ -319,6 +320,7 @@ class BriefingPage(QWidget):
         self.look.setToolTip(tr("Study the CT without the clock; F5 starts the attempt"))
         self._lay_out()
         self._connect()
+        PageKeys(self, lambda event: self._pressed(event) is not None, self.keyPressEvent)
 
     def show_exercise(self, exercise: Exercise, portrait: Portrait | None) -> None:
         """Show what an exercise says."""

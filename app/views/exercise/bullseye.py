@@ -154,6 +154,9 @@ DECLARATION: Final[dict[str, Any]] = {
 INTENT_MS: Final = 10
 """Shortest time between two hand intents: 100 Hz."""
 
+MOVING_MS: Final = 200
+"""So long after a movement the loop may not show it yet [ms]."""
+
 
 TALL: Final = 29
 """Height, in heights of the small letters, from which every word has its place."""
@@ -253,6 +256,7 @@ class Bullseye(QWidget):
         self._brevity = Brevity.FULL
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
+        self._moving = QTimer(self, interval=MOVING_MS, singleShot=True)
         self._lay_out()
         self._connect_source()
 
@@ -447,6 +451,11 @@ class Bullseye(QWidget):
         """Return where the simulated hand wants the needle; None without one."""
         return self._hand.pose if self._hand else None
 
+    @property
+    def is_moving(self) -> bool:
+        """Return whether the user moved the hand so late that the loop may not show it yet."""
+        return self._moving.isActive()
+
     # --- inside -----------------------------------------------------------------------------------
     def _show(self, scene: PadScene, view: NeedleLine) -> None:
         hand = self._hand
@@ -500,6 +509,7 @@ class Bullseye(QWidget):
         ):
             return
         change(self._hand)
+        self._moving.start()
         if self._view is not None:
             self._show(self._scene, self._view)
         if not self._intent.isActive():

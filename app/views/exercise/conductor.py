@@ -376,6 +376,18 @@ class Conductor(QObject):
         exercise, run = self.exercise, self.controller.run
         own = None if exercise is None else exercise.reading.layout
         self._workspace.room.begin(own or "", run is None or run.shown.live)
+        self._look_anew()
+
+    def _look_anew(self) -> None:
+        """Look at the CT as a first attempt does: whole, at the target, no slice laid aslant."""
+        viewing, target = self._workspace.viewing, self._editor.edit.draft.target_mm
+        for pane in self._workspace.panes:
+            if viewing.is_oblique(pane.pane):
+                viewing.set_frame(pane.pane, None)
+        if target is not None:
+            viewing.set_cursor(target)
+        for pane in self._workspace.slices:
+            pane.canvas.fit()
 
     def _begin_steps(self) -> None:
         self._workspace.next_step.begin(self.controller.run)

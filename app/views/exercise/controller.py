@@ -14,7 +14,9 @@ from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.rate_meter import RateMeter
+from app.core.units import MILLIMETRE
 from app.exercises.parts import ViewName
+from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.display_load import BusyWatch, WorldPace
 from app.session.machine import RUNNING, State
@@ -23,6 +25,7 @@ from app.session.pad.readings import hand_pose, needle_line
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
+from app.session.transitions import PauseCause
 from app.views.exercise.axial_gauge import AxialGauge, axial_force, bone_crossed_mm
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.enable_switch import enabling
@@ -79,7 +82,7 @@ class ExerciseDisplay:
         self._figured: tuple[object, ...] = ()
         self._going: State | None = None
         self._aimed: PlacedPlan | None = None
-        self.is_led = self.is_absent = False
+        self.is_led = self.is_absent = self._was_paused = False
         self.rates = (0.0, 0.0)
         self.extra_items: list[Callable[[Snapshot], tuple[StatusItem, ...]]] = []
         self._rates = LoopRates()
@@ -87,6 +90,7 @@ class ExerciseDisplay:
     def begin(self) -> None:
         """Begin with another trainer."""
         self._rates, self._figured, self._going = LoopRates(), (), None
+        self._was_paused = False
 
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
@@ -105,10 +109,16 @@ class ExerciseDisplay:
     def take_hand(self, snapshot: Snapshot) -> None:
         """Let the simulated hand go on from where the loop has it; draws nothing.
 
-        While the needle is being brought out, the hand of the window goes with it.
+        While the needle is being brought out, the hand of the window goes with it; while the
+        attempt is paused it stands with it, so that nothing given meanwhile is made up for.
         """
         bullseye = self._views.bullseye
         led = snapshot.state is State.WITHDRAWING and not snapshot.ready
+        paused = snapshot.state is State.PAUSED
+        # Where it may go back, the loop is not yet where a movement of this moment leads.
+        stands = paused and not (snapshot.pause is PauseCause.CAMERAS and bullseye.is_moving)
+        led = led or stands or (self._was_paused and not paused)
+        self._was_paused = paused
         hand = hand_pose(snapshot) if led or bullseye.hand is None else None
         if hand is not None:
             bullseye.take_hand(hand)
@@ -181,6 +191,19 @@ class ExerciseDisplay:
             may = run.inspect is not None and run.shown.shows(ViewName.CAMERAS)
             seen = run.inspect(wanted.mask, wanted.epipolar) if may and run.inspect else None
             tracker.show_tracker(seen, tracker_figures(snapshot), now)
+
+
+def about_tip(run: ExerciseRun) -> ScanOrder:
+    """Return a control scan of as many slices as the exercise has, the needle's tip in the middle;
+    the middle of the plan where nobody knows the tip.
+    """
+    placed, pose = run.placed, run.trainer.snapshot().pose
+    plan = placed.plan
+    if pose.measured:
+        middle = float((placed.T_world_patient.inverse() @ pose.p_tip)[2]) / MILLIMETRE
+    else:
+        middle = 0.5 * float(plan.entry_mm[2] + plan.target_mm[2])
+    return run.guidance.order(middle)
 
 
 class LoopRates:
@@ -495,11 +518,12 @@ class ExerciseController(QObject):
             self._run.trainer.roll(step)
 
     def scan(self) -> None:
-        """Take a control scan: of the slices that are set, where scans guide; else count one."""
+        """Take a control scan: the slices that are set, where scans guide; else about the tip."""
         run = self._run
         if run is not None:
             try:
-                run.trainer.scan(None if run.shown.live else self._views.panel.scan.order)
+                live = run.shown.live
+                run.trainer.scan(about_tip(run) if live else self._views.panel.scan.order)
             except AcusError as error:
                 self._fail(translated(error))
                 return

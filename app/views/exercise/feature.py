@@ -200,6 +200,9 @@ class ExerciseFeature(Feature):
             if self._shell.may_go():
                 self._take_here(exercise)
             return
+        if own and not plan.attempted:
+            self._go_on(exercise)  # it is being planned: there is nothing to choose between
+            return
         answer = ask(
             self._shell.dialog_parent,
             declared(exercise.title),
@@ -209,11 +212,15 @@ class ExerciseFeature(Feature):
             escape=2,
         )
         if answer == 0:
-            if exercise.fading is None:  # else the dial of the next attempt is there already
-                self._conductor.go_on_with(exercise)
-            self._show(exercise)
+            self._go_on(exercise)
         elif answer == 1 and (own or self._shell.may_go()):
             self._take_here(exercise)
+
+    def _go_on(self, exercise: Exercise) -> None:
+        """Go on with the plan that is shown."""
+        if exercise.fading is None:  # else the dial of the next attempt is there already
+            self._conductor.go_on_with(exercise)
+        self._show(exercise)
 
     def _take_here(self, exercise: Exercise) -> None:
         if self._take(exercise):

@@ -7,15 +7,14 @@ from math import degrees, remainder, tau
 from typing import Final
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, QRegularExpression, QSignalBlocker, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QKeySequence, QRegularExpressionValidator, QShortcut
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
     QFrame,
     QGridLayout,
     QHBoxLayout,
-    QLineEdit,
     QPushButton,
     QSizePolicy,
     QVBoxLayout,
@@ -38,6 +37,7 @@ from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.stages import Steps
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
+from app.views.kit.lines import PseudonymLine
 from app.views.kit.parts import FittingButton, PlainLabel, add_row
 from app.views.kit.text import literal, tr, translated
 
@@ -58,7 +58,7 @@ class AttemptActions(QWidget):
         super().__init__(parent)
         self.start = _button(tr("Start attempt"), _starts())
         self.start.setProperty("role", "primary")
-        self.scan = _button(tr("Control scan (S)"), _counts())
+        self.scan = _button(tr("Control scan (S)"), _takes_here())
         self.end = _button(tr("End attempt (Enter)"), tr("The needle stays as it is and is scored"))
         self.abort = _button(
             tr("Abort (hold Esc)"),
@@ -74,8 +74,8 @@ class AttemptActions(QWidget):
         self.show_state(None, False)
 
     def set_pedal(self, scans: bool) -> None:
-        """Say what the scan's key does: it takes slices, or counts a scan only."""
-        self.scan.setToolTip(literal(_takes() if scans else _counts()))
+        """Say what the scan's key does: it takes the slices that are set, or those at the tip."""
+        self.scan.setToolTip(literal(_takes() if scans else _takes_here()))
 
     def watch(self, window: QWidget) -> None:
         """Listen for Esc held down anywhere in `window`."""
@@ -148,8 +148,10 @@ def _starts() -> str:
     return tr("Arm the robot and begin recording (F5)")
 
 
-def _counts() -> str:
-    return tr("Counts a scan and keeps the needle's place with it")
+def _takes_here() -> str:
+    return tr(
+        "Takes a scan about the needle's tip, counts it, and shows it in place of the live pictures"
+    )
 
 
 def _takes() -> str:
@@ -345,10 +347,6 @@ class BreathCommand(QWidget):
         self.asked.emit(self._wish)
 
 
-PSEUDONYM: Final = r"([A-Za-z0-9][A-Za-z0-9._-]{0,31})?"
-"""What a pseudonym may look like; empty for an anonymous attempt."""
-
-
 TELLING_NOTHING: Final = frozenset({"elapsed", "scans"})
 """Read-outs that say nothing of where the needle is."""
 
@@ -420,7 +418,7 @@ class ExercisePanel(QWidget):
         self._telling: frozenset[str] | None = None
         self._offsets = self._forceful = True
         self.exercise = QComboBox(self)
-        self.student = QLineEdit(self)
+        self.student = PseudonymLine(self)
         self._title = PlainLabel(self)
         self._title.setProperty("role", "heading")
         self._title.setWordWrap(True)
@@ -592,7 +590,7 @@ class ExercisePanel(QWidget):
         """Show who is signed in: nobody types over that."""
         if ACCESS.student is not None:
             self._typed = self._typed if self._signed_in else self.student.text()
-            self.student.setText(ACCESS.student.pseudonym)
+            self.student.show_known(ACCESS.student.pseudonym)
         elif self._signed_in:
             self.student.setText(self._typed)
         self._signed_in = ACCESS.student is not None
@@ -612,12 +610,7 @@ class ExercisePanel(QWidget):
             self.start_changed.emit()
 
     def _prepare_inputs(self) -> None:
-        pattern = QRegularExpression(f"^{PSEUDONYM}$")
-        self.student.setValidator(QRegularExpressionValidator(pattern, self.student))
         self.student.setPlaceholderText(tr("anonymous"))
-        self.student.setToolTip(
-            tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
-        )
         self._note.setWordWrap(True)
         self._note.setStyleSheet(f"color: {theme.WARNING};")
         self._note.hide()

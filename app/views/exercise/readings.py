@@ -114,7 +114,11 @@ def tracker_status(snapshot: Snapshot) -> StatusItem:
         return no_cameras_item()
     age = inf if statistics.age is None else statistics.age
     return tracker_item(
-        statistics.rate, statistics.valid_share, age, problem(statistics), snapshot.simulated
+        statistics.rate,
+        statistics.valid_share,
+        age,
+        problem(statistics, snapshot.simulated),
+        snapshot.simulated,
     )
 
 
@@ -138,10 +142,11 @@ def tracker_figures(snapshot: Snapshot) -> TrackerFigures:
     )
 
 
-def problem(statistics: TrackerStatistics) -> str:
+def problem(statistics: TrackerStatistics, simulated: bool = False) -> str:
     """Say what keeps the cameras from a fix, naming the cameras; empty if nothing does.
 
-    A camera that has stopped or failed is said before anything about the marker.
+    A camera that has stopped or failed is said before anything about the marker. `simulated`
+    cameras' pictures are late where this computer does not come to draw them.
     """
     troubled = [c for c in statistics.cameras if c.state in _BAD_STATES]
     if statistics.fault or troubled:
@@ -151,7 +156,11 @@ def problem(statistics: TrackerStatistics) -> str:
     if statistics.status is FixStatus.NOT_YET_VISIBLE:
         return tr("marker still in the tube")
     if statistics.status is FixStatus.NO_PICTURE:
-        return tr("a picture is late")
+        return (
+            tr("pictures come late: this computer is busy, close other programs")
+            if simulated
+            else tr("a picture is late")
+        )
     if statistics.status is FixStatus.ONE_CAMERA:
         names = listing(camera_name(name) for name in statistics.missing)
         return tr("marker out of view ({cameras})", cameras=names)

@@ -173,7 +173,7 @@ class ScanSource(QObject):
         run = self._controller.run
         self._origin = event.time if self._origin is None else self._origin
         scan = ControlScan.of(event)
-        if scan is None or run is None or run.shown.live:
+        if scan is None or run is None:
             return
         self._newest = scan
         self._panel.add(scan)

@@ -129,7 +129,7 @@ def _seen_words(verdict: Verdict, problem: str, simulated: bool) -> str:
     if problem:
         return problem
     if simulated and verdict is not Verdict.GOOD:
-        return tr("pictures come late: this computer is busy")
+        return tr("pictures come late: this computer is busy, close other programs")
     return {
         Verdict.GOOD: tr("see the marker"),
         Verdict.WARNING: tr("see the marker now and then"),
@@ -214,7 +214,8 @@ def robot_item(
     elif encoders.verdict is Verdict.BAD:
         verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=tr("it does not answer"))
     elif heartbeat.verdict is Verdict.BAD:
-        verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=tr("this window stood still"))
+        why = tr("the computer is too busy, close other programs")
+        verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=why)
     elif guard_acts:
         verdict, words = (
             Verdict.WARNING,
@@ -228,7 +229,7 @@ def robot_item(
             tr("Robot held back: {why}", why=tr("the depth is not certain")),
         )
     elif Verdict.BAD in verdicts or Verdict.WARNING in verdicts:
-        verdict, words = Verdict.WARNING, tr("Robot ready, the computer is busy")
+        verdict, words = Verdict.WARNING, tr("Robot ready, computer busy: close other programs")
     else:
         verdict, words = Verdict.GOOD, ready
     guard = tr("acts: the force is weakened or damped") if guard_acts else tr("at rest")

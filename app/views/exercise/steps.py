@@ -105,7 +105,7 @@ def _without_numbers(kind: StepKind, sides: str, inwards: str, outwards: str, ti
 def _pause_words(cause: PauseCause | None) -> str:
     """Say what an attempt waits for that no movement of the needle mends."""
     if cause is PauseCause.WINDOW:
-        return tr("Paused: the window was busy; it goes on by itself.")
+        return tr("Paused: the window stood still. This computer is busy: close other programs.")
     if cause is PauseCause.HAND:
         return tr("Paused: the needle swings in the simulated hand; it goes on by itself.")
     if cause is PauseCause.CAMERAS:
@@ -113,7 +113,9 @@ def _pause_words(cause: PauseCause | None) -> str:
             "Paused: the simulated cameras do not see the needle there. Move it back a little."
         )
     if cause is None:
-        return tr("One moment: nothing has told for an instant where the needle is.")
+        return tr(
+            "One moment: this computer is busy and its pictures come late. Close other programs."
+        )
     return tr("Paused: this computer is too busy. Close other programs; it goes on by itself.")
 
 

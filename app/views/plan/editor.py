@@ -20,7 +20,9 @@ from app.planning.draft import DraftPlan, Edit, Judge, PlanVerdict
 from app.planning.history import UndoHistory
 from app.planning.placement import Placement
 from app.planning.plan import Plan
+from app.views.kit.access import ACCESS
 from app.views.kit.names import NAMES
+from app.views.kit.roles import Role
 from app.views.kit.text import declared, tr, translated
 from app.views.shell.settings import Recents
 from app.views.slices.viewing import Tool
@@ -87,13 +89,19 @@ class PlanFiles(QObject):
 
     def _may_go(self) -> bool:
         buttons = QMessageBox.StandardButton
-        answer = QMessageBox.question(
-            self._window,
-            tr("Unsaved plan"),
-            tr("The plan has unsaved changes. Save them first?"),
-            buttons.Save | buttons.Discard | buttons.Cancel,
-            buttons.Save,
-        )
+        if ACCESS.role is Role.STUDENT:  # whose window has no files of plans
+            if self._editor.attempted:
+                return True
+            title, words = tr("Plan without an attempt"), tr("Leave the plan? No attempt has it.")
+            choices = buttons.Discard | buttons.Cancel
+        else:
+            title, words = (
+                tr("Unsaved plan"),
+                tr("The plan has unsaved changes. Save them first?"),
+            )
+            choices = buttons.Save | buttons.Discard | buttons.Cancel
+        # Enter, perhaps meant for the page, writes nothing and throws nothing away.
+        answer = QMessageBox.question(self._window, title, words, choices, buttons.Cancel)
         if answer == buttons.Save:
             return self.save()
         return answer == buttons.Discard
@@ -161,6 +169,7 @@ class PlanEditor(QObject):
         self.locked = self.keeps_target = False
         self._exercise = ("", "")
         self._clicked: tuple[Point, DraftPlan] | None = None
+        self._attempted: DraftPlan | None = None
         self._fresh = True  # the present gesture has changed nothing yet
         self.verdict = PlanVerdict(None)
 
@@ -182,6 +191,15 @@ class PlanEditor(QObject):
     def dirty(self) -> bool:
         """Return whether points were changed since the plan was opened or saved."""
         return self.edit.draft != self._saved.draft
+
+    @property
+    def attempted(self) -> bool:
+        """Return whether an attempt was made with the points as they are: its record has them."""
+        return self._attempted is not None and self._attempted == self.edit.draft
+
+    def note_attempt(self) -> None:
+        """Remember that an attempt is made with the points as they are."""
+        self._attempted = self.edit.draft
 
     @property
     def can_undo(self) -> bool:
@@ -232,6 +250,7 @@ class PlanEditor(QObject):
             draft = DraftPlan(None, self.edit.draft.target_mm, self.edit.draft.name)
         edit = Edit(draft, placement or self.edit.placement)
         self._history, self._saved, self.path = UndoHistory(edit), edit, None
+        self._attempted = None
         self._announce()
 
     def opened(self, path: Path, plan: Plan) -> None:

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 
 from app.planning.placement import PatientOrientation, Placement
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
 from app.views.kit.coordinates import lps_words
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
@@ -260,6 +261,7 @@ class PlanFeature(Feature):
         self.panel = PlanPanel(self._editor, viewing)
         shell.add_panel(self.panel, tr("Plan"))
         self.way = WayWatch(context, self)
+        context.conductor.controller.began.connect(lambda _: self._note_attempt())
         self.way.changed.connect(lambda: self.panel.show_way(self.way.way))
         with shell.made_for(STAFF):
             self._add_files(recents)
@@ -289,6 +291,11 @@ class PlanFeature(Feature):
             ],
         )
 
+    def _note_attempt(self) -> None:
+        run = self.context.conductor.controller.run
+        if run is not None and not run.demonstrates:
+            self._editor.note_attempt()
+
     # --- what the window asks -----------------------------------------------------------------
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""
@@ -303,6 +310,9 @@ class PlanFeature(Feature):
         if not self._editor.dirty:
             return ""
         name = NAMES.shown(self._editor.name)
+        if ACCESS.role is Role.STUDENT:
+            made = tr("the plan “{name}”, which no attempt has", name=name)
+            return "" if self._editor.attempted else made
         return tr("the plan “{name}”, which has unsaved changes", name=name)
 
     def save(self) -> bool:

@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.core.loading import ONE_AT_A_TIME
+from app.core.loading import turn
 from app.core.progress import Progress
 from app.planning.clearance import Field
 from app.planning.draft import DraftPlan
@@ -43,6 +43,8 @@ if TYPE_CHECKING:
     from app.imaging.field import TissueField
     from app.planning.paths import PathScores
 
+
+_MODULES = "app.imaging.field.making", "app.imaging.skin", "app.planning.paths"
 
 _WIDTHS = 58, 64, 58
 """Of the columns before the last [px]."""
@@ -290,7 +292,7 @@ class PathsFeature(Feature):
         limits, target = ReachLimits.of(profile), np.array(edit.draft.target_mm)
 
         def work(progress: Progress) -> tuple[PathScores, TissueField | None]:
-            with ONE_AT_A_TIME:  # scipy: behind the window
+            with turn(progress, *_MODULES):  # scipy: behind the window
                 from app.imaging.field.making import field_of
                 from app.imaging.skin import skin_points
                 from app.planning.paths import score_paths

@@ -30,7 +30,7 @@ class PlannedWay:
     Attributes:
         state: what is known.
         hindrances: on it, the first one first.
-        reason: why it is unknown; empty otherwise.
+        reason: why it is unknown, or what the look-up is at; empty otherwise.
     """
 
     state: WayState = WayState.NOBODY_ASKS
@@ -83,7 +83,8 @@ def _way_words(way: PlannedWay) -> tuple[str, str]:
     """Return kind and sentence of a path that the robot can follow."""
     follows = tr("The robot can follow this path.")
     if way.state is WayState.LOOKING:
-        return "open", tr("The robot can follow; what lies on the way is being looked up…")
+        looked = tr("The robot can follow; what lies on the way is being looked up…")
+        return "open", "\n".join(filter(None, (looked, way.reason)))
     if way.state is WayState.UNKNOWN:
         unknown = tr("What lies on the way is not known: {reason}.", reason=way.reason)
         return "warning", f"{follows}\n{unknown}"

@@ -7,12 +7,13 @@ the attempt's.
 
 from __future__ import annotations
 
+from time import monotonic
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.core.loading import ONE_AT_A_TIME
+from app.core.loading import turn
 from app.core.progress import Progress
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr, translated
@@ -23,8 +24,13 @@ if TYPE_CHECKING:
     from app.imaging.structures.structure import Structure
     from app.views.shell.feature import Context
 
+_MODULE: Final = "app.imaging.field.making"
+
 AFTER_MS: Final = 300
 """So long a target stays where it is before the tissue round it is looked up."""
+
+SILENT_S: Final = 2.0
+"""A look-up that lasts longer says what it is at."""
 
 ABOUT_TARGET_MM: Final = 125.0
 """No path that is scored is longer."""
@@ -49,7 +55,7 @@ class WayWatch(QObject):
         self.way = PlannedWay()
         self._task: BackgroundTask | None = None
         self._tissues: TissueField | None = None
-        self._reason = ""
+        self._reason, self._begun = "", 0.0
         self._structures: list[Structure] = []
         self._place: tuple[Any, ...] = ()  # what field, or reason, and task are of
         self._timer = QTimer(self, singleShot=True, interval=AFTER_MS)
@@ -78,7 +84,8 @@ class WayWatch(QObject):
             met = hindrances(self._tissues, draft.entry_mm, draft.target_mm)
             self._tell(PlannedWay(WayState.KNOWN, met))
         else:
-            self._tell(PlannedWay(WayState.LOOKING))
+            if self.way.state is not WayState.LOOKING:
+                self._tell(PlannedWay(WayState.LOOKING))
             if self._task is None:
                 self._timer.start()
 
@@ -115,7 +122,7 @@ class WayWatch(QObject):
         structures = self._structures
 
         def work(progress: Progress) -> TissueField:
-            with ONE_AT_A_TIME:  # scipy: behind the window
+            with turn(progress, _MODULE):  # scipy: behind the window
                 from app.imaging.field.making import field_of
             return field_of(
                 patient.volume,
@@ -134,7 +141,19 @@ class WayWatch(QObject):
             self._task = None
             self._fail(translated(error))
 
-        self._task = run_in_background(self, work, done, failed)
+        def stopped() -> None:
+            self._task = None
+            self.look()  # nobody has the answer: it is asked for again
+
+        self._begun = monotonic()
+        self._task = run_in_background(self, work, done, failed, stopped)
+        self._task.progressed.connect(self._tell_progress)
+
+    def _tell_progress(self, _: float, words: str) -> None:
+        """Say what a look-up that lasts does, or waits for."""
+        lasts = monotonic() - self._begun >= SILENT_S
+        if lasts and self.way.state is WayState.LOOKING:
+            self._tell(PlannedWay(WayState.LOOKING, reason=words))
 
     def _fail(self, reason: str) -> None:
         self._reason = reason

@@ -9,6 +9,7 @@ from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QApplication, QMenu
 
 from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.language import choose, chosen, code_for, languages, use_language
 from app.views.kit.text import tr
 from app.views.people.feature import PeopleFeature
@@ -78,6 +79,8 @@ class Rebuilding(QObject):
             return
         patient, exercise = window.conductor.patient, window.conductor.exercise
         edit, path, dirty = window.editor.edit, window.editor.path, window.editor.dirty
+        attempted, begun = window.editor.attempted, window.feature(ExerciseFeature).beginning
+        briefed = exercise is not None and begun.is_briefed(exercise)
         page, debrief = window.pages.currentWidget(), window.feature(DebriefFeature)
         if not all(one.may_go() for one in window.features if not isinstance(one, PlanFeature)):
             return
@@ -92,11 +95,15 @@ class Rebuilding(QObject):
         application.setQuitOnLastWindowClosed(True)
         if exercise is not None:
             new.conductor.set_exercise(exercise)
+            if briefed:
+                new.feature(ExerciseFeature).beginning.trust(exercise.id)
         if patient is not None:
             new.show_patient(patient)
             new.editor.take(edit.draft, edit.placement)
             if not dirty:
                 new.editor.saved(path)
+            if attempted:
+                new.editor.note_attempt()
         if page is window.start_page:
             new.show_start()
         elif page is window.feature(PeopleFeature).page:

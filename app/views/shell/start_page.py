@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import QEvent, QRectF, QRegularExpression, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFontMetrics,
@@ -18,7 +18,6 @@ from PySide6.QtGui import (
     QPainter,
     QPainterPath,
     QPaintEvent,
-    QRegularExpressionValidator,
     QResizeEvent,
     QShortcut,
     QShowEvent,
@@ -27,7 +26,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
     QHBoxLayout,
-    QLineEdit,
     QListWidget,
     QListWidgetItem,
     QPushButton,
@@ -38,8 +36,8 @@ from PySide6.QtWidgets import (
 
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
-from app.views.exercise.panel import PSEUDONYM
 from app.views.kit import theme
+from app.views.kit.lines import PseudonymLine, SearchLine
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import declared, literal, tr
@@ -92,10 +90,7 @@ class StartPage(QWidget):
         self.recents.setAccessibleName(tr("Your own CT"))
         self.recents.setWordWrap(True)
         self.recents.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.search, self.hint = QLineEdit(self), PlainLabel(self)
-        self.search.setPlaceholderText(tr("Search exercises"))
-        self.search.setAccessibleName(tr("Search exercises"))
-        self.search.setClearButtonEnabled(True)
+        self.search, self.hint = SearchLine(tr("Search exercises"), self), PlainLabel(self)
         self.hint.setWordWrap(True)
         self.hint.setProperty("role", "dim")
         self.whose, self.about = PlainLabel(self), PlainLabel(self)
@@ -411,15 +406,9 @@ class NameLine(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.line = QLineEdit(self)
+        self.line = PseudonymLine(self)
         self.line.setPlaceholderText(tr("a name of your choice"))
         self.line.setAccessibleName(tr("Your name"))
-        self.line.setValidator(
-            QRegularExpressionValidator(QRegularExpression(f"^{PSEUDONYM}$"), self.line)
-        )
-        self.line.setToolTip(
-            tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
-        )
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.setSpacing(theme.SPACING // 2)

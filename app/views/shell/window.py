@@ -137,7 +137,8 @@ class ChangeOfPatient(QObject):
         """Say what another patient would replace: CT, running attempt, unsaved plan."""
         stake = []
         patient = self._conductor.patient
-        if patient is not None:
+        # A student opens no CT but the exercises' own: nothing of them is his, or lost.
+        if patient is not None and ACCESS.role is not Role.STUDENT:
             stake.append(tr("the CT {name}", name=NAMES.shown(patient.label)))
         if self._editor.locked:
             stake.append(tr("the attempt that is running: it ends and is saved, without a score"))
@@ -155,10 +156,13 @@ class ChangeOfPatient(QObject):
         lines = "\n".join(f"•  {line}" for line in stake)
         text = tr("Opening a patient replaces:") + f"\n{lines}"
         box, dirty = QMessageBox.StandardButton, bool(self._unsaved())
-        if dirty:
+        saves = dirty and ACCESS.role is not Role.STUDENT
+        if saves:
             text += "\n\n" + tr("Save the plan first?")
-        choices = box.Save | box.Discard | box.Cancel if dirty else box.Open | box.Cancel
-        title, default = tr("Open another patient"), box.Save if dirty else box.Open
+        choices = box.Discard | box.Cancel if dirty else box.Open | box.Cancel
+        choices = choices | box.Save if saves else choices
+        # Enter, perhaps meant for the page, writes nothing and throws nothing away.
+        title, default = tr("Open another patient"), box.Cancel if dirty else box.Open
         parent = self._context.shell.dialog_parent
         answer = QMessageBox.question(parent, title, literal(text), choices, default)
         if answer == box.Save:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from app.core.loading import ONE_AT_A_TIME
+from app.core.loading import turn
 from app.core.progress import Progress
 from app.exercises.parts import StructurePart
 from app.imaging.structures.structure import (
@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from app.imaging.structures.distance import SignedDistance
     from app.views.scene.mesh import Mesh
 
+
+_FILES = "app.imaging.structures.files"
+_MEASURING = "app.imaging.structures.distance", "app.views.scene.mesh"
 
 FILES = "Structures (*.seg.nrrd *.nrrd *.nii *.nii.gz *.dcm *);;All files (*)"
 
@@ -101,7 +104,7 @@ class StructureFiles(QObject):
             return
 
         def read(progress: Progress) -> StructureSet:
-            with ONE_AT_A_TIME:
+            with turn(progress, _FILES):
                 from app.imaging.structures.files import read_structures
             return read_structures(path, volume, progress)
 
@@ -135,7 +138,7 @@ class StructureFiles(QObject):
             return
 
         def write(progress: Progress) -> None:
-            with ONE_AT_A_TIME:
+            with turn(progress, _FILES):
                 from app.imaging.structures.files import write_structures
             write_structures(path, structures, volume, progress)
 
@@ -151,7 +154,7 @@ class StructureFiles(QObject):
 
 def read_parts(parts: Sequence[StructurePart], volume: Volume, progress: Progress) -> StructureSet:
     """Read the files of an exercise; its risks are of that kind and warn at their distance."""
-    with ONE_AT_A_TIME:
+    with turn(progress, _FILES):
         from app.imaging.structures.files import read_structures
     result = StructureSet()
     for number, part in enumerate(parts):
@@ -358,7 +361,7 @@ class StructuresFeature(Feature):
 
 
 def _measured(structure: Structure, progress: Progress) -> tuple[SignedDistance, Mesh]:
-    with ONE_AT_A_TIME:  # scipy and VTK: behind the window, not before it
+    with turn(progress, *_MEASURING):  # scipy and VTK: behind the window, not before it
         from app.imaging.structures.distance import SignedDistance
         from app.views.scene.mesh import structure_mesh
     field = SignedDistance.of(structure, progress.part(0.0, 0.6))
