@@ -157,7 +157,7 @@ def test_choosing_by_name_what_the_computer_has_is_remembered_and_builds_nothing
 
 
 @pytest.mark.parametrize("role", Role)
-def test_everybody_chooses_the_language_in_the_menu_of_views(rebuilding, role):
+def test_everybody_chooses_the_language_in_the_menu_of_views(rebuilding, role, settle):
     for choice in ("de", "en"):  # in the first window, and in the one that takes its place
         window = rebuilding.window
         for one in (*Role, role):
@@ -165,3 +165,4 @@ def test_everybody_chooses_the_language_in_the_menu_of_views(rebuilding, role):
         titles = [action.text() for action in window.view_menu._menu.actions()]
         assert titles.count("Language") == 1
         rebuilding.change(choice)
+        settle(lambda window=window: not isValid(window))
