@@ -2408,6 +2408,10 @@
             <translation type="unfinished">{effect} ist nötig und fehlt: {reason}; ergänzen Sie es, oder begründen Sie, warum nicht: without: {{{effect}: "…"}}</translation>
         </message>
         <message>
+            <source>{tissue} at {depth_mm:.0f} mm</source>
+            <translation type="unfinished">{tissue} bei {depth_mm:.0f} mm</translation>
+        </message>
+        <message>
             <source>exercise {exercise_id}: without: {stranger} is not called for: nothing within reach needs it ({reasons}); take it out</source>
             <translation type="unfinished">Übung {exercise_id}: without: {stranger} ist nicht nötig: Nichts in Reichweite braucht es ({reasons}); nehmen Sie es heraus</translation>
         </message>
@@ -4752,12 +4756,20 @@
             <translation type="unfinished">außer Reichweite: {reasons}. Abhilfe: {remedy}</translation>
         </message>
         <message>
+            <source>horizontal</source>
+            <translation type="unfinished">waagerecht</translation>
+        </message>
+        <message>
             <source>upward (tilt {tilt:.1f}° of 180°)</source>
             <translation type="unfinished">aufwärts (Neigung {tilt:.1f}° von 180°)</translation>
         </message>
         <message>
             <source>the path runs {way}; the needle enters from above, at most {limit:g}° from vertical</source>
             <translation type="unfinished">der Pfad verläuft {way}; die Nadel sticht von oben ein, höchstens {limit:g}° von der Senkrechten</translation>
+        </message>
+        <message>
+            <source>tilt {tilt:.1f}° exceeds {limit:g}°</source>
+            <translation type="unfinished">die Neigung von {tilt:.1f}° übersteigt {limit:g}°</translation>
         </message>
         <message>
             <source>tool point ({x:.1f}, {y:.1f}) mm lies outside the robot's workspace</source>
@@ -10589,12 +10601,200 @@ Anteil</translation>
             <translation type="unfinished">Lunge</translation>
         </message>
         <message>
+            <source>air</source>
+            <translation type="unfinished">Luft</translation>
+        </message>
+        <message>
+            <source>fat</source>
+            <translation type="unfinished">Fett</translation>
+        </message>
+        <message>
+            <source>muscle</source>
+            <translation type="unfinished">Muskel</translation>
+        </message>
+        <message>
             <source>gut</source>
             <translation type="unfinished">Darm</translation>
         </message>
         <message>
             <source>heart</source>
             <translation type="unfinished">Herz</translation>
+        </message>
+        <message>
+            <source>diaphragm</source>
+            <translation type="unfinished">Zwerchfell</translation>
+        </message>
+        <message>
+            <source>cartilage</source>
+            <translation type="unfinished">Knorpel</translation>
+        </message>
+        <message>
+            <source>disc</source>
+            <translation type="unfinished">Bandscheibe</translation>
+        </message>
+        <message>
+            <source>liver</source>
+            <translation type="unfinished">Leber</translation>
+        </message>
+        <message>
+            <source>gallbladder</source>
+            <translation type="unfinished">Gallenblase</translation>
+        </message>
+        <message>
+            <source>pancreas</source>
+            <translation type="unfinished">Bauchspeicheldrüse</translation>
+        </message>
+        <message>
+            <source>spleen</source>
+            <translation type="unfinished">Milz</translation>
+        </message>
+        <message>
+            <source>kidney</source>
+            <translation type="unfinished">Niere</translation>
+        </message>
+        <message>
+            <source>adrenal</source>
+            <translation type="unfinished">Nebenniere</translation>
+        </message>
+        <message>
+            <source>bladder</source>
+            <translation type="unfinished">Harnblase</translation>
+        </message>
+        <message>
+            <source>prostate</source>
+            <translation type="unfinished">Prostata</translation>
+        </message>
+        <message>
+            <source>uterus</source>
+            <translation type="unfinished">Gebärmutter</translation>
+        </message>
+        <message>
+            <source>thyroid</source>
+            <translation type="unfinished">Schilddrüse</translation>
+        </message>
+        <message>
+            <source>brain</source>
+            <translation type="unfinished">Gehirn</translation>
+        </message>
+        <message>
+            <source>lesion</source>
+            <translation type="unfinished">Läsion</translation>
+        </message>
+        <message>
+            <source>nodule</source>
+            <translation type="unfinished">Rundherd</translation>
+        </message>
+        <message>
+            <source>lung nodule</source>
+            <translation type="unfinished">Lungenrundherd</translation>
+        </message>
+        <message>
+            <source>tumour</source>
+            <translation type="unfinished">Tumor</translation>
+        </message>
+        <message>
+            <source>cyst</source>
+            <translation type="unfinished">Zyste</translation>
+        </message>
+        <message>
+            <source>spinal canal</source>
+            <translation type="unfinished">Wirbelkanal</translation>
+        </message>
+        <message>
+            <source>gas</source>
+            <translation type="unfinished">Gas</translation>
+        </message>
+        <message>
+            <source>stomach</source>
+            <translation type="unfinished">Magen</translation>
+        </message>
+        <message>
+            <source>small bowel</source>
+            <translation type="unfinished">Dünndarm</translation>
+        </message>
+        <message>
+            <source>colon</source>
+            <translation type="unfinished">Dickdarm</translation>
+        </message>
+        <message>
+            <source>duodenum</source>
+            <translation type="unfinished">Zwölffingerdarm</translation>
+        </message>
+        <message>
+            <source>trachea</source>
+            <translation type="unfinished">Luftröhre</translation>
+        </message>
+        <message>
+            <source>bronchus</source>
+            <translation type="unfinished">Bronchus</translation>
+        </message>
+        <message>
+            <source>oesophagus</source>
+            <translation type="unfinished">Speiseröhre</translation>
+        </message>
+        <message>
+            <source>small vessel</source>
+            <translation type="unfinished">kleines Gefäß</translation>
+        </message>
+        <message>
+            <source>lung vessel</source>
+            <translation type="unfinished">Lungengefäß</translation>
+        </message>
+        <message>
+            <source>artery</source>
+            <translation type="unfinished">Arterie</translation>
+        </message>
+        <message>
+            <source>vein</source>
+            <translation type="unfinished">Vene</translation>
+        </message>
+        <message>
+            <source>aorta</source>
+            <translation type="unfinished">Aorta</translation>
+        </message>
+        <message>
+            <source>vena cava</source>
+            <translation type="unfinished">Hohlvene</translation>
+        </message>
+        <message>
+            <source>portal vein</source>
+            <translation type="unfinished">Pfortader</translation>
+        </message>
+        <message>
+            <source>hepatic vein</source>
+            <translation type="unfinished">Lebervene</translation>
+        </message>
+        <message>
+            <source>contrast</source>
+            <translation type="unfinished">Kontrastmittel</translation>
+        </message>
+        <message>
+            <source>bone or contrast</source>
+            <translation type="unfinished">Knochen oder Kontrastmittel</translation>
+        </message>
+        <message>
+            <source>rib</source>
+            <translation type="unfinished">Rippe</translation>
+        </message>
+        <message>
+            <source>vertebra</source>
+            <translation type="unfinished">Wirbel</translation>
+        </message>
+        <message>
+            <source>sternum</source>
+            <translation type="unfinished">Brustbein</translation>
+        </message>
+        <message>
+            <source>scapula</source>
+            <translation type="unfinished">Schulterblatt</translation>
+        </message>
+        <message>
+            <source>spine</source>
+            <translation type="unfinished">Wirbelsäule</translation>
+        </message>
+        <message>
+            <source>pelvis</source>
+            <translation type="unfinished">Becken</translation>
         </message>
         <message>
             <source>organ</source>
@@ -13219,10 +13419,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source> (wheel towards you)</source>
             <translation type="unfinished"> (Rad zu Ihnen)</translation>
-        </message>
-        <message>
-            <source> and </source>
-            <translation type="unfinished"> und </translation>
         </message>
         <message>
             <source>Press F5 to start the attempt</source>
@@ -18962,6 +19158,26 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{text!r} is no date: write {day}, or two days with a dash</source>
             <translation type="unfinished">{text!r} ist kein Datum: Schreiben Sie {day}, oder zwei Tage mit Strich dazwischen</translation>
+        </message>
+        <message>
+            <source>{tissue} {length:.1f} mm</source>
+            <translation type="unfinished">{tissue} {length:.1f} mm</translation>
+        </message>
+        <message>
+            <source>points</source>
+            <translation type="unfinished">Punkte</translation>
+        </message>
+        <message>
+            <source>times</source>
+            <translation type="unfinished">Mal</translation>
+        </message>
+        <message>
+            <source>&amp;Look in:</source>
+            <translation type="unfinished">&amp;Suchen in:</translation>
+        </message>
+        <message>
+            <source>Files of &amp;type:</source>
+            <translation type="unfinished">Dateien des &amp;Typs:</translation>
         </message>
     </context>
 </TS>

@@ -1161,7 +1161,7 @@
         </message>
         <message>
             <source>scans</source>
-            <translation type="unfinished">contrôles</translation>
+            <translation type="unfinished">scans</translation>
         </message>
         <message>
             <source>file</source>
@@ -2406,6 +2406,10 @@
         <message>
             <source>{effect} is called for and absent: {reason}; add it, or say why not: without: {{{effect}: "…"}}</source>
             <translation type="unfinished">{effect} est nécessaire et absent : {reason} ; ajoutez-le, ou dites pourquoi non : without: {{{effect}: "…"}}</translation>
+        </message>
+        <message>
+            <source>{tissue} at {depth_mm:.0f} mm</source>
+            <translation type="unfinished">{tissue} à {depth_mm:.0f} mm</translation>
         </message>
         <message>
             <source>exercise {exercise_id}: without: {stranger} is not called for: nothing within reach needs it ({reasons}); take it out</source>
@@ -4752,12 +4756,20 @@
             <translation type="unfinished">hors de portée : {reasons}. Remède : {remedy}</translation>
         </message>
         <message>
+            <source>horizontal</source>
+            <translation type="unfinished">à l’horizontale</translation>
+        </message>
+        <message>
             <source>upward (tilt {tilt:.1f}° of 180°)</source>
             <translation type="unfinished">vers le haut (inclinaison {tilt:.1f}° sur 180°)</translation>
         </message>
         <message>
             <source>the path runs {way}; the needle enters from above, at most {limit:g}° from vertical</source>
             <translation type="unfinished">la trajectoire va {way} ; l’aiguille entre par le haut, à {limit:g}° au plus de la verticale</translation>
+        </message>
+        <message>
+            <source>tilt {tilt:.1f}° exceeds {limit:g}°</source>
+            <translation type="unfinished">l’inclinaison de {tilt:.1f}° dépasse {limit:g}°</translation>
         </message>
         <message>
             <source>tool point ({x:.1f}, {y:.1f}) mm lies outside the robot's workspace</source>
@@ -10589,12 +10601,200 @@ part</translation>
             <translation type="unfinished">poumon</translation>
         </message>
         <message>
+            <source>air</source>
+            <translation type="unfinished">air</translation>
+        </message>
+        <message>
+            <source>fat</source>
+            <translation type="unfinished">graisse</translation>
+        </message>
+        <message>
+            <source>muscle</source>
+            <translation type="unfinished">muscle</translation>
+        </message>
+        <message>
             <source>gut</source>
             <translation type="unfinished">intestin</translation>
         </message>
         <message>
             <source>heart</source>
             <translation type="unfinished">cœur</translation>
+        </message>
+        <message>
+            <source>diaphragm</source>
+            <translation type="unfinished">diaphragme</translation>
+        </message>
+        <message>
+            <source>cartilage</source>
+            <translation type="unfinished">cartilage</translation>
+        </message>
+        <message>
+            <source>disc</source>
+            <translation type="unfinished">disque</translation>
+        </message>
+        <message>
+            <source>liver</source>
+            <translation type="unfinished">foie</translation>
+        </message>
+        <message>
+            <source>gallbladder</source>
+            <translation type="unfinished">vésicule biliaire</translation>
+        </message>
+        <message>
+            <source>pancreas</source>
+            <translation type="unfinished">pancréas</translation>
+        </message>
+        <message>
+            <source>spleen</source>
+            <translation type="unfinished">rate</translation>
+        </message>
+        <message>
+            <source>kidney</source>
+            <translation type="unfinished">rein</translation>
+        </message>
+        <message>
+            <source>adrenal</source>
+            <translation type="unfinished">surrénale</translation>
+        </message>
+        <message>
+            <source>bladder</source>
+            <translation type="unfinished">vessie</translation>
+        </message>
+        <message>
+            <source>prostate</source>
+            <translation type="unfinished">prostate</translation>
+        </message>
+        <message>
+            <source>uterus</source>
+            <translation type="unfinished">utérus</translation>
+        </message>
+        <message>
+            <source>thyroid</source>
+            <translation type="unfinished">thyroïde</translation>
+        </message>
+        <message>
+            <source>brain</source>
+            <translation type="unfinished">cerveau</translation>
+        </message>
+        <message>
+            <source>lesion</source>
+            <translation type="unfinished">lésion</translation>
+        </message>
+        <message>
+            <source>nodule</source>
+            <translation type="unfinished">nodule</translation>
+        </message>
+        <message>
+            <source>lung nodule</source>
+            <translation type="unfinished">nodule pulmonaire</translation>
+        </message>
+        <message>
+            <source>tumour</source>
+            <translation type="unfinished">tumeur</translation>
+        </message>
+        <message>
+            <source>cyst</source>
+            <translation type="unfinished">kyste</translation>
+        </message>
+        <message>
+            <source>spinal canal</source>
+            <translation type="unfinished">canal rachidien</translation>
+        </message>
+        <message>
+            <source>gas</source>
+            <translation type="unfinished">gaz</translation>
+        </message>
+        <message>
+            <source>stomach</source>
+            <translation type="unfinished">estomac</translation>
+        </message>
+        <message>
+            <source>small bowel</source>
+            <translation type="unfinished">intestin grêle</translation>
+        </message>
+        <message>
+            <source>colon</source>
+            <translation type="unfinished">côlon</translation>
+        </message>
+        <message>
+            <source>duodenum</source>
+            <translation type="unfinished">duodénum</translation>
+        </message>
+        <message>
+            <source>trachea</source>
+            <translation type="unfinished">trachée</translation>
+        </message>
+        <message>
+            <source>bronchus</source>
+            <translation type="unfinished">bronche</translation>
+        </message>
+        <message>
+            <source>oesophagus</source>
+            <translation type="unfinished">œsophage</translation>
+        </message>
+        <message>
+            <source>small vessel</source>
+            <translation type="unfinished">petit vaisseau</translation>
+        </message>
+        <message>
+            <source>lung vessel</source>
+            <translation type="unfinished">vaisseau pulmonaire</translation>
+        </message>
+        <message>
+            <source>artery</source>
+            <translation type="unfinished">artère</translation>
+        </message>
+        <message>
+            <source>vein</source>
+            <translation type="unfinished">veine</translation>
+        </message>
+        <message>
+            <source>aorta</source>
+            <translation type="unfinished">aorte</translation>
+        </message>
+        <message>
+            <source>vena cava</source>
+            <translation type="unfinished">veine cave</translation>
+        </message>
+        <message>
+            <source>portal vein</source>
+            <translation type="unfinished">veine porte</translation>
+        </message>
+        <message>
+            <source>hepatic vein</source>
+            <translation type="unfinished">veine hépatique</translation>
+        </message>
+        <message>
+            <source>contrast</source>
+            <translation type="unfinished">produit de contraste</translation>
+        </message>
+        <message>
+            <source>bone or contrast</source>
+            <translation type="unfinished">os ou produit de contraste</translation>
+        </message>
+        <message>
+            <source>rib</source>
+            <translation type="unfinished">côte</translation>
+        </message>
+        <message>
+            <source>vertebra</source>
+            <translation type="unfinished">vertèbre</translation>
+        </message>
+        <message>
+            <source>sternum</source>
+            <translation type="unfinished">sternum</translation>
+        </message>
+        <message>
+            <source>scapula</source>
+            <translation type="unfinished">omoplate</translation>
+        </message>
+        <message>
+            <source>spine</source>
+            <translation type="unfinished">colonne vertébrale</translation>
+        </message>
+        <message>
+            <source>pelvis</source>
+            <translation type="unfinished">bassin</translation>
         </message>
         <message>
             <source>organ</source>
@@ -13006,7 +13206,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>unknown</source>
-            <translation type="unfinished">inconnue</translation>
+            <translation type="unfinished">inconnu</translation>
         </message>
         <message>
             <source>The depth is measured by the cameras; by one of them and the needle's line, less exactly, while the other does not see the marker. Without a fix it is held for 200 ms. After that, and until ten pictures in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have. Wait until the cameras see the marker again.</source>
@@ -13219,10 +13419,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source> (wheel towards you)</source>
             <translation type="unfinished"> (molette vers vous)</translation>
-        </message>
-        <message>
-            <source> and </source>
-            <translation type="unfinished"> et </translation>
         </message>
         <message>
             <source>Press F5 to start the attempt</source>
@@ -18962,6 +19158,26 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{text!r} is no date: write {day}, or two days with a dash</source>
             <translation type="unfinished">{text!r} n’est pas une date : écrivez {day}, ou deux jours séparés par un tiret</translation>
+        </message>
+        <message>
+            <source>{tissue} {length:.1f} mm</source>
+            <translation type="unfinished">{tissue} {length:.1f} mm</translation>
+        </message>
+        <message>
+            <source>points</source>
+            <translation type="unfinished">points</translation>
+        </message>
+        <message>
+            <source>times</source>
+            <translation type="unfinished">fois</translation>
+        </message>
+        <message>
+            <source>&amp;Look in:</source>
+            <translation type="unfinished">&amp;Rechercher dans :</translation>
+        </message>
+        <message>
+            <source>Files of &amp;type:</source>
+            <translation type="unfinished">Fichiers de &amp;type :</translation>
         </message>
     </context>
 </TS>

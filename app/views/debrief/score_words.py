@@ -6,19 +6,21 @@ from dataclasses import dataclass, replace
 
 from app.core.messages import joined
 from app.core.units import MILLIMETRE
+from app.imaging.field.tissue_words import tissue_words
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.scoring.pass_line import pass_words
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.rows import Row, shown_sd
 from app.scoring.tolerance import Band
+from app.scoring.unit_words import unit_words
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.roles import Role
-from app.views.kit.text import begun, declared, listing, tr, tr_n
+from app.views.kit.text import begun, declared, listing, tr, tr_n, translated
 from app.views.kit.text import number as local
 
 
@@ -28,12 +30,13 @@ def risk_line(mark: RiskMark, origin: float) -> str:
     if mark.closest_mm <= 0.0:
         return tr(
             "✖ {name}: needle inside, {depth:.1f} mm deep, at {when} (limit {limit:g} mm)",
-            name=mark.name,
+            name=tissue_words(mark.name),
             depth=depth,
             when=when,
             limit=mark.limit_mm,
         )
-    values = {"name": mark.name, "distance": mark.closest_mm, "when": when, "limit": mark.limit_mm}
+    name = tissue_words(mark.name)
+    values = {"name": name, "distance": mark.closest_mm, "when": when, "limit": mark.limit_mm}
     if mark.breach_mm > 0.0:
         return tr("▲ {name}: {distance:.1f} mm, at {when}: nearer than {limit:g} mm", **values)
     return tr("✔ {name}: {distance:.1f} mm, at {when} (limit {limit:g} mm)", **values)
@@ -403,11 +406,12 @@ def number(value: float) -> str:
 
 def with_unit(value: float, unit: str, sd: float | None = None) -> str:
     """Say a value with its unit, and its deviation where it shows; the degree sign stands close."""
+    words = translated(unit_words(unit))
     if unit in COUNTED:
-        return f"{value:.0f} {unit}"
+        return f"{value:.0f} {words}"
     gap = "" if unit in ("°", "") else " "
     unsure = f" ± {number(sd)}" if sd and number(sd) != number(0.0) else ""
-    return f"{number(value)}{unsure}{gap}{unit}"
+    return f"{number(value)}{unsure}{gap}{words}"
 
 
 def total_text(score: Score | None, void: str = "") -> str:
@@ -483,7 +487,7 @@ def _limits(row: Row) -> str:
         expert=expert,
         good=good,
         passing=passing,
-        unit=row.unit,
+        unit=unit_words(row.unit),
     )
     required = tr("* required to pass") if row.tolerance.required else ""
     return "; ".join(filter(None, (text, required, pass_words(row.name, passing))))

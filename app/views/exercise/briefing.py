@@ -23,14 +23,16 @@ from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import HandName, Lock
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
+from app.imaging.field.tissue_words import tissue_words
 from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
+from app.scoring.unit_words import unit_words
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import FittingButton, PlainLabel, button, label
 from app.views.kit.roles import Role
-from app.views.kit.text import declared, listing, literal, number, tr, tr_n
+from app.views.kit.text import declared, listing, literal, number, tr, tr_n, translated
 from app.views.reading.lock_words import view_title, views_for
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -65,7 +67,7 @@ def scored_words(exercise: Exercise) -> list[str]:
     said += _hands_words(exercise)
     for part in exercise.structures:
         for name, limit in part.risks.items():
-            said.append(tr("{name}: stay {mm:g} mm away", name=name, mm=limit))
+            said.append(tr("{name}: stay {mm:g} mm away", name=tissue_words(name), mm=limit))
     said.append(tr("{mark:g} of 100 points pass.", mark=exercise.rules.pass_mark))
     return said
 
@@ -106,7 +108,7 @@ def _value(value: float, unit: str) -> str:
         minutes, seconds = divmod(round(value), 60)
         return tr("{m}:{s:02d} min", m=minutes, s=seconds)
     gap = "" if unit in ("°", "") else " "
-    return number(value, "g") + gap + unit
+    return number(value, "g") + gap + translated(unit_words(unit))
 
 
 def locked_words(exercise: Exercise) -> list[str]:
