@@ -1140,6 +1140,10 @@
             <translation type="unfinished">{total:.0f} %</translation>
         </message>
         <message>
+            <source>{first} then {later}</source>
+            <translation type="unfinished">{first}, dann {later}</translation>
+        </message>
+        <message>
             <source>no student's attempt: {hands}</source>
             <translation type="unfinished">kein Versuch eines Teilnehmers: {hands}</translation>
         </message>
@@ -1484,8 +1488,40 @@
             <translation type="unfinished">{origin} ist kein gültiges YAML: {line}</translation>
         </message>
         <message>
+            <source>required and missing: {names}</source>
+            <translation type="unfinished">nötig und nicht angegeben: {names}</translation>
+        </message>
+        <message>
+            <source>and {n} more like these</source>
+            <translation type="unfinished">und {n} weitere dieser Art</translation>
+        </message>
+        <message>
             <source>{origin}: {faults}</source>
             <translation type="unfinished">{origin}: {faults}</translation>
+        </message>
+        <message>
+            <source>required and missing</source>
+            <translation type="unfinished">nötig und nicht angegeben</translation>
+        </message>
+        <message>
+            <source>should be names with values, each as `name: value`</source>
+            <translation type="unfinished">hier müssen Namen mit Werten stehen, jeder als `name: value`</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a mapping of {n}</source>
+            <translation type="unfinished">{wrong}; angegeben sind {n} Namen mit Werten</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a list of {n}</source>
+            <translation type="unfinished">{wrong}; angegeben ist eine Liste mit {n} Einträgen</translation>
+        </message>
+        <message>
+            <source>{wrong}, got {value}</source>
+            <translation type="unfinished">{wrong}; angegeben ist {value}</translation>
+        </message>
+        <message>
+            <source>{wrong}; valid names: {names}</source>
+            <translation type="unfinished">{wrong}; gültige Namen: {names}</translation>
         </message>
         <message>
             <source>{package} is not installed; install the extra `{extra}`: {install_command}</source>
@@ -2642,6 +2678,10 @@
         <message>
             <source>exercise {exercise_id} cannot be written as YAML: it reads back otherwise</source>
             <translation type="unfinished">die Übung {exercise_id} lässt sich nicht als YAML schreiben: Wieder gelesen ist sie anders</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {why}; nothing was changed</source>
+            <translation type="unfinished">{path} kann nicht geschrieben werden: {why}; nichts wurde geändert</translation>
         </message>
         <message>
             <source>id: {exercise_id!r} is an exercise that comes with Acus and stays as it is: save yours under another id (duplicate it)</source>
@@ -6396,6 +6436,14 @@
             <translation type="unfinished">ein Wiederherstellungsschlüssel hat acht Gruppen aus vier Buchstaben und Ziffern: Geben Sie ihn noch einmal ein</translation>
         </message>
         <message>
+            <source>fits several sessions</source>
+            <translation type="unfinished">passt auf mehrere Sitzungen</translation>
+        </message>
+        <message>
+            <source>is no session</source>
+            <translation type="unfinished">ist keine Sitzung</translation>
+        </message>
+        <message>
             <source>{session_id!r} {trouble} in {folder}: `acus session list` says which there are</source>
             <translation type="unfinished">{session_id!r} {trouble} in {folder}: `acus session list` sagt, welche es gibt</translation>
         </message>
@@ -8632,6 +8680,10 @@
             <translation type="unfinished">Bei {depth:.0f} mm ist Knochen im Weg, vor dem Ziel bei {length:.0f} mm: Keine Nadel erreicht es. Wählen Sie einen anderen Einstichpunkt.</translation>
         </message>
         <message>
+            <source>cannot write in {folder}: {why}</source>
+            <translation type="unfinished">in {folder} kann nicht geschrieben werden: {why}</translation>
+        </message>
+        <message>
             <source>Exercise</source>
             <translation type="unfinished">Übung</translation>
         </message>
@@ -9421,6 +9473,10 @@ Anteil</translation>
         <message>
             <source>✔ The exercise can be used.</source>
             <translation type="unfinished">✔ Die Übung ist verwendbar.</translation>
+        </message>
+        <message>
+            <source>the board cannot be written to {path}: {why}</source>
+            <translation type="unfinished">die Tafel kann nicht nach {path} geschrieben werden: {why}</translation>
         </message>
         <message>
             <source>Calibration board {spec}</source>
@@ -19178,6 +19234,206 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Files of &amp;type:</source>
             <translation type="unfinished">Dateien des &amp;Typs:</translation>
+        </message>
+        <message>
+            <source>No such file or directory</source>
+            <translation type="unfinished">Datei oder Ordner nicht gefunden</translation>
+        </message>
+        <message>
+            <source>Permission denied</source>
+            <translation type="unfinished">keine Berechtigung</translation>
+        </message>
+        <message>
+            <source>Operation not permitted</source>
+            <translation type="unfinished">das ist nicht erlaubt</translation>
+        </message>
+        <message>
+            <source>File exists</source>
+            <translation type="unfinished">das gibt es schon</translation>
+        </message>
+        <message>
+            <source>Not a directory</source>
+            <translation type="unfinished">das ist kein Ordner</translation>
+        </message>
+        <message>
+            <source>Is a directory</source>
+            <translation type="unfinished">das ist ein Ordner</translation>
+        </message>
+        <message>
+            <source>Directory not empty</source>
+            <translation type="unfinished">der Ordner ist nicht leer</translation>
+        </message>
+        <message>
+            <source>No space left on device</source>
+            <translation type="unfinished">auf dem Datenträger ist kein Platz mehr</translation>
+        </message>
+        <message>
+            <source>Read-only file system</source>
+            <translation type="unfinished">dort darf nur gelesen werden</translation>
+        </message>
+        <message>
+            <source>File too large</source>
+            <translation type="unfinished">die Datei ist zu groß</translation>
+        </message>
+        <message>
+            <source>Input/output error</source>
+            <translation type="unfinished">Fehler beim Lesen oder Schreiben</translation>
+        </message>
+        <message>
+            <source>File name too long</source>
+            <translation type="unfinished">der Dateiname ist zu lang</translation>
+        </message>
+        <message>
+            <source>Too many open files</source>
+            <translation type="unfinished">zu viele Dateien sind offen</translation>
+        </message>
+        <message>
+            <source>Invalid argument</source>
+            <translation type="unfinished">ungültige Angabe</translation>
+        </message>
+        <message>
+            <source>Device or resource busy</source>
+            <translation type="unfinished">das Gerät ist belegt</translation>
+        </message>
+        <message>
+            <source>No such device</source>
+            <translation type="unfinished">das Gerät gibt es nicht</translation>
+        </message>
+        <message>
+            <source>No such device or address</source>
+            <translation type="unfinished">das Gerät oder die Adresse gibt es nicht</translation>
+        </message>
+        <message>
+            <source>Cannot allocate memory</source>
+            <translation type="unfinished">der Arbeitsspeicher reicht nicht</translation>
+        </message>
+        <message>
+            <source>Broken pipe</source>
+            <translation type="unfinished">die Verbindung ist abgebrochen</translation>
+        </message>
+        <message>
+            <source>Exec format error</source>
+            <translation type="unfinished">diese Datei ist kein Programm</translation>
+        </message>
+        <message>
+            <source>Address already in use</source>
+            <translation type="unfinished">die Adresse wird schon benutzt</translation>
+        </message>
+        <message>
+            <source>Cannot assign requested address</source>
+            <translation type="unfinished">diese Adresse hat der Computer nicht</translation>
+        </message>
+        <message>
+            <source>Connection refused</source>
+            <translation type="unfinished">die Verbindung wurde abgelehnt</translation>
+        </message>
+        <message>
+            <source>Connection reset by peer</source>
+            <translation type="unfinished">die Gegenseite hat die Verbindung getrennt</translation>
+        </message>
+        <message>
+            <source>Connection timed out</source>
+            <translation type="unfinished">keine Antwort innerhalb der Frist</translation>
+        </message>
+        <message>
+            <source>No route to host</source>
+            <translation type="unfinished">kein Weg führt dorthin</translation>
+        </message>
+        <message>
+            <source>Network is unreachable</source>
+            <translation type="unfinished">das Netz ist nicht erreichbar</translation>
+        </message>
+        <message>
+            <source>Name or service not known</source>
+            <translation type="unfinished">dieser Name ist im Netz nicht bekannt</translation>
+        </message>
+        <message>
+            <source>{file}: {why}</source>
+            <translation type="unfinished">{file}: {why}</translation>
+        </message>
+        <message>
+            <source>Extra inputs are not permitted</source>
+            <translation type="unfinished">dieses Feld gibt es nicht</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer</source>
+            <translation type="unfinished">hier muss eine ganze Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, unable to parse string as an integer</source>
+            <translation type="unfinished">hier muss eine ganze Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, got a number with a fractional part</source>
+            <translation type="unfinished">hier muss eine ganze Zahl stehen, ohne Nachkommastellen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number</source>
+            <translation type="unfinished">hier muss eine Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number, unable to parse string as a number</source>
+            <translation type="unfinished">hier muss eine Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a finite number</source>
+            <translation type="unfinished">hier muss eine endliche Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid string</source>
+            <translation type="unfinished">hier muss ein Text stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean</source>
+            <translation type="unfinished">hier muss „true“ oder „false“ stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean, unable to interpret input</source>
+            <translation type="unfinished">hier muss „true“ oder „false“ stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid list</source>
+            <translation type="unfinished">hier muss eine Liste stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid tuple</source>
+            <translation type="unfinished">hier muss eine Liste stehen</translation>
+        </message>
+        <message>
+            <source>Input should be greater than or equal to {limit:g}</source>
+            <translation type="unfinished">der Wert muss mindestens {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>Input should be less than or equal to {limit:g}</source>
+            <translation type="unfinished">der Wert darf höchstens {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>Input should be greater than {limit:g}</source>
+            <translation type="unfinished">der Wert muss größer als {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>Input should be less than {limit:g}</source>
+            <translation type="unfinished">der Wert muss kleiner als {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>String should match pattern '{pattern}'</source>
+            <translation type="unfinished">der Text muss dem Muster '{pattern}' entsprechen</translation>
+        </message>
+        <message>
+            <source>Input should be {last}</source>
+            <translation type="unfinished">hier muss {last} stehen</translation>
+        </message>
+        <message>
+            <source>Input should be {names} or {last}</source>
+            <translation type="unfinished">hier muss {names} oder {last} stehen</translation>
+        </message>
+        <message>
+            <source>{what} should have at least {items} items after validation, not {n}</source>
+            <translation type="unfinished">die Liste ({what}) muss mindestens {items} Einträge haben, nicht {n}</translation>
+        </message>
+        <message>
+            <source>{what} should have at most {items} items after validation, not {n}</source>
+            <translation type="unfinished">die Liste ({what}) darf höchstens {items} Einträge haben, nicht {n}</translation>
         </message>
     </context>
 </TS>

@@ -1140,6 +1140,10 @@
             <translation type="unfinished">{total:.0f} %</translation>
         </message>
         <message>
+            <source>{first} then {later}</source>
+            <translation type="unfinished">{first}, puis {later}</translation>
+        </message>
+        <message>
             <source>no student's attempt: {hands}</source>
             <translation type="unfinished">aucun essai d’étudiant : {hands}</translation>
         </message>
@@ -1484,8 +1488,40 @@
             <translation type="unfinished">{origin} n’est pas du YAML valide : {line}</translation>
         </message>
         <message>
+            <source>required and missing: {names}</source>
+            <translation type="unfinished">requis et absent : {names}</translation>
+        </message>
+        <message>
+            <source>and {n} more like these</source>
+            <translation type="unfinished">et {n} autres du même genre</translation>
+        </message>
+        <message>
             <source>{origin}: {faults}</source>
             <translation type="unfinished">{origin} : {faults}</translation>
+        </message>
+        <message>
+            <source>required and missing</source>
+            <translation type="unfinished">requis et absent</translation>
+        </message>
+        <message>
+            <source>should be names with values, each as `name: value`</source>
+            <translation type="unfinished">il faut des noms avec des valeurs, chacun comme `name: value`</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a mapping of {n}</source>
+            <translation type="unfinished">{wrong} ; donné : {n} noms avec des valeurs</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a list of {n}</source>
+            <translation type="unfinished">{wrong} ; donné : une liste de {n} éléments</translation>
+        </message>
+        <message>
+            <source>{wrong}, got {value}</source>
+            <translation type="unfinished">{wrong} ; donné : {value}</translation>
+        </message>
+        <message>
+            <source>{wrong}; valid names: {names}</source>
+            <translation type="unfinished">{wrong} ; noms valables : {names}</translation>
         </message>
         <message>
             <source>{package} is not installed; install the extra `{extra}`: {install_command}</source>
@@ -2642,6 +2678,10 @@
         <message>
             <source>exercise {exercise_id} cannot be written as YAML: it reads back otherwise</source>
             <translation type="unfinished">l’exercice {exercise_id} ne peut pas être écrit en YAML : relu, il est différent</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {why}; nothing was changed</source>
+            <translation type="unfinished">impossible d’écrire {path} : {why} ; rien n’a été changé</translation>
         </message>
         <message>
             <source>id: {exercise_id!r} is an exercise that comes with Acus and stays as it is: save yours under another id (duplicate it)</source>
@@ -6396,6 +6436,14 @@
             <translation type="unfinished">une clé de récupération a huit groupes de quatre lettres et chiffres : saisissez-la de nouveau</translation>
         </message>
         <message>
+            <source>fits several sessions</source>
+            <translation type="unfinished">correspond à plusieurs séances</translation>
+        </message>
+        <message>
+            <source>is no session</source>
+            <translation type="unfinished">n’est pas une séance</translation>
+        </message>
+        <message>
             <source>{session_id!r} {trouble} in {folder}: `acus session list` says which there are</source>
             <translation type="unfinished">{session_id!r} {trouble} dans {folder} : `acus session list` indique ceux qui existent</translation>
         </message>
@@ -8632,6 +8680,10 @@
             <translation type="unfinished">Un os barre le passage à {depth:.0f} mm, avant la cible à {length:.0f} mm : aucune aiguille ne l’atteint. Choisissez un autre point d’entrée.</translation>
         </message>
         <message>
+            <source>cannot write in {folder}: {why}</source>
+            <translation type="unfinished">impossible d’écrire dans {folder} : {why}</translation>
+        </message>
+        <message>
             <source>Exercise</source>
             <translation type="unfinished">Exercice</translation>
         </message>
@@ -9421,6 +9473,10 @@ part</translation>
         <message>
             <source>✔ The exercise can be used.</source>
             <translation type="unfinished">✔ L’exercice est utilisable.</translation>
+        </message>
+        <message>
+            <source>the board cannot be written to {path}: {why}</source>
+            <translation type="unfinished">la mire ne peut pas être écrite dans {path} : {why}</translation>
         </message>
         <message>
             <source>Calibration board {spec}</source>
@@ -19178,6 +19234,206 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Files of &amp;type:</source>
             <translation type="unfinished">Fichiers de &amp;type :</translation>
+        </message>
+        <message>
+            <source>No such file or directory</source>
+            <translation type="unfinished">fichier ou dossier introuvable</translation>
+        </message>
+        <message>
+            <source>Permission denied</source>
+            <translation type="unfinished">permission refusée</translation>
+        </message>
+        <message>
+            <source>Operation not permitted</source>
+            <translation type="unfinished">opération non permise</translation>
+        </message>
+        <message>
+            <source>File exists</source>
+            <translation type="unfinished">le fichier existe déjà</translation>
+        </message>
+        <message>
+            <source>Not a directory</source>
+            <translation type="unfinished">ce n’est pas un dossier</translation>
+        </message>
+        <message>
+            <source>Is a directory</source>
+            <translation type="unfinished">c’est un dossier</translation>
+        </message>
+        <message>
+            <source>Directory not empty</source>
+            <translation type="unfinished">le dossier n’est pas vide</translation>
+        </message>
+        <message>
+            <source>No space left on device</source>
+            <translation type="unfinished">il n’y a plus de place sur le disque</translation>
+        </message>
+        <message>
+            <source>Read-only file system</source>
+            <translation type="unfinished">ce disque est en lecture seule</translation>
+        </message>
+        <message>
+            <source>File too large</source>
+            <translation type="unfinished">le fichier est trop grand</translation>
+        </message>
+        <message>
+            <source>Input/output error</source>
+            <translation type="unfinished">erreur d’entrée-sortie</translation>
+        </message>
+        <message>
+            <source>File name too long</source>
+            <translation type="unfinished">le nom du fichier est trop long</translation>
+        </message>
+        <message>
+            <source>Too many open files</source>
+            <translation type="unfinished">trop de fichiers sont ouverts</translation>
+        </message>
+        <message>
+            <source>Invalid argument</source>
+            <translation type="unfinished">argument non valable</translation>
+        </message>
+        <message>
+            <source>Device or resource busy</source>
+            <translation type="unfinished">l’appareil est occupé</translation>
+        </message>
+        <message>
+            <source>No such device</source>
+            <translation type="unfinished">cet appareil n’existe pas</translation>
+        </message>
+        <message>
+            <source>No such device or address</source>
+            <translation type="unfinished">cet appareil ou cette adresse n’existe pas</translation>
+        </message>
+        <message>
+            <source>Cannot allocate memory</source>
+            <translation type="unfinished">la mémoire ne suffit pas</translation>
+        </message>
+        <message>
+            <source>Broken pipe</source>
+            <translation type="unfinished">la liaison est rompue</translation>
+        </message>
+        <message>
+            <source>Exec format error</source>
+            <translation type="unfinished">ce fichier n’est pas un programme</translation>
+        </message>
+        <message>
+            <source>Address already in use</source>
+            <translation type="unfinished">l’adresse est déjà utilisée</translation>
+        </message>
+        <message>
+            <source>Cannot assign requested address</source>
+            <translation type="unfinished">cet ordinateur n’a pas cette adresse</translation>
+        </message>
+        <message>
+            <source>Connection refused</source>
+            <translation type="unfinished">la connexion a été refusée</translation>
+        </message>
+        <message>
+            <source>Connection reset by peer</source>
+            <translation type="unfinished">la connexion a été coupée par l’autre côté</translation>
+        </message>
+        <message>
+            <source>Connection timed out</source>
+            <translation type="unfinished">pas de réponse dans le délai</translation>
+        </message>
+        <message>
+            <source>No route to host</source>
+            <translation type="unfinished">aucune route n’y mène</translation>
+        </message>
+        <message>
+            <source>Network is unreachable</source>
+            <translation type="unfinished">le réseau est inaccessible</translation>
+        </message>
+        <message>
+            <source>Name or service not known</source>
+            <translation type="unfinished">ce nom est inconnu sur le réseau</translation>
+        </message>
+        <message>
+            <source>{file}: {why}</source>
+            <translation type="unfinished">{file} : {why}</translation>
+        </message>
+        <message>
+            <source>Extra inputs are not permitted</source>
+            <translation type="unfinished">ce champ n’existe pas</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer</source>
+            <translation type="unfinished">il faut un nombre entier</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, unable to parse string as an integer</source>
+            <translation type="unfinished">il faut un nombre entier</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, got a number with a fractional part</source>
+            <translation type="unfinished">il faut un nombre entier, sans décimales</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number</source>
+            <translation type="unfinished">il faut un nombre</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number, unable to parse string as a number</source>
+            <translation type="unfinished">il faut un nombre</translation>
+        </message>
+        <message>
+            <source>Input should be a finite number</source>
+            <translation type="unfinished">il faut un nombre fini</translation>
+        </message>
+        <message>
+            <source>Input should be a valid string</source>
+            <translation type="unfinished">il faut un texte</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean</source>
+            <translation type="unfinished">il faut « true » ou « false »</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean, unable to interpret input</source>
+            <translation type="unfinished">il faut « true » ou « false »</translation>
+        </message>
+        <message>
+            <source>Input should be a valid list</source>
+            <translation type="unfinished">il faut une liste</translation>
+        </message>
+        <message>
+            <source>Input should be a valid tuple</source>
+            <translation type="unfinished">il faut une liste</translation>
+        </message>
+        <message>
+            <source>Input should be greater than or equal to {limit:g}</source>
+            <translation type="unfinished">la valeur doit être au moins {limit:g}</translation>
+        </message>
+        <message>
+            <source>Input should be less than or equal to {limit:g}</source>
+            <translation type="unfinished">la valeur doit être au plus {limit:g}</translation>
+        </message>
+        <message>
+            <source>Input should be greater than {limit:g}</source>
+            <translation type="unfinished">la valeur doit dépasser {limit:g}</translation>
+        </message>
+        <message>
+            <source>Input should be less than {limit:g}</source>
+            <translation type="unfinished">la valeur doit être inférieure à {limit:g}</translation>
+        </message>
+        <message>
+            <source>String should match pattern '{pattern}'</source>
+            <translation type="unfinished">le texte doit suivre le modèle '{pattern}'</translation>
+        </message>
+        <message>
+            <source>Input should be {last}</source>
+            <translation type="unfinished">il faut {last}</translation>
+        </message>
+        <message>
+            <source>Input should be {names} or {last}</source>
+            <translation type="unfinished">il faut {names} ou {last}</translation>
+        </message>
+        <message>
+            <source>{what} should have at least {items} items after validation, not {n}</source>
+            <translation type="unfinished">la liste ({what}) doit avoir au moins {items} éléments, pas {n}</translation>
+        </message>
+        <message>
+            <source>{what} should have at most {items} items after validation, not {n}</source>
+            <translation type="unfinished">la liste ({what}) doit avoir au plus {items} éléments, pas {n}</translation>
         </message>
     </context>
 </TS>

@@ -101,7 +101,7 @@ class _Lacking(_Translation):
     def translate(  # type: ignore[override]  # none is a null string of Qt, "" would be one
         self,
         context: str,
-        sourceText: str,  # noqa: N803 - Qt's names
+        sourceText: str,
         disambiguation: str | None = None,
         n: int = -1,
     ) -> str | None:
