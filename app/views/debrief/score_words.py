@@ -136,7 +136,7 @@ def short_words(conditions: Conditions | None) -> str:
         hands_word(conditions),
         kind_word(conditions.kind),
         tr("assistance {dial}", dial=dial) if dial else "",
-        tr("bands: {bands}", bands=bands_words(conditions)) if conditions.bands else "",
+        bands_words(conditions) if conditions.bands else "",
         tr("▲ model changed meanwhile: {models}", models=models_text(conditions))
         if conditions.models
         else "",
@@ -168,11 +168,16 @@ def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
 def bands_words(conditions: Conditions) -> str:
     """Say by whose bands it was judged, and whose attempts these were fitted to."""
     source = {
-        "scripts": tr("from scripts, not people"),
-        "people": tr("from people's attempts"),
-        "author": tr("as the exercise's author set them"),
+        "scripts": tr("set from scripted runs, not from people"),
+        "people": tr("set from people's attempts"),
+        "author": tr("set by the exercise's author"),
     }.get(conditions.bands_source, "")
-    hand = hand_word(replace(conditions, hand=conditions.bands, scripted=""))
+    hand = {
+        "mouse": tr("scoring bands for the mouse"),
+        "tablet": tr("scoring bands for the tablet"),
+        "gamepad": tr("scoring bands for the gamepad"),
+        "keyboard": tr("scoring bands for the keyboard"),
+    }.get(conditions.bands) or tr("scoring bands for {hand}", hand=conditions.bands)
     return ", ".join(filter(None, (hand, source)))
 
 

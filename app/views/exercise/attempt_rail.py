@@ -38,13 +38,16 @@ WIDEST_SHARE: Final = 0.17
 WIDEST_PX: Final = 352
 """On large screens, with text of the usual size."""
 
+NARROWEST_PX: Final = 200
+"""In the smallest windows, which have more for the rail than its share: its words need it."""
+
 GRID: Final = 8
 """Margins, gaps and widths are whole numbers of so many pixels."""
 
 ORDER_LINES: Final = 5
 """Lines of the order, in the largest letters: the block below never moves."""
 
-LONGEST: Final = "88.8 mm"
+LONGEST: Final = "-188.8 mm"
 """What a number of the rail is as wide as."""
 
 _DISC: Final = 8.0
@@ -52,7 +55,7 @@ _DISC: Final = 8.0
 
 def rail_width(window: int) -> int:
     """Return the width of the rail in a window [px]."""
-    widest = min(WIDEST_SHARE * window, WIDEST_PX * theme.scale())
+    widest = max(NARROWEST_PX, min(WIDEST_SHARE * window, WIDEST_PX * theme.scale()))
     return int(widest) // GRID * GRID
 
 
@@ -117,13 +120,15 @@ class OrderBlock(PlainLabel):
         self.fit()
 
     def fit(self) -> None:
-        """Take the larger letters in which all of it can be read, else the usual ones."""
+        """Take the largest letters in which all of it can be read; if none, more height."""
         high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
         self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
         room = self.width() - 2 * GRID
-        pixels = theme.TITLE_PX
-        if not _fits(self.text(), pixels, room, self.height() - 2 * GRID):
-            pixels = theme.FONT_PX
+        sizes = (theme.TITLE_PX, theme.FONT_PX, theme.SMALL_PX)
+        fitting = (px for px in sizes if _fits(self.text(), px, room, self.height() - 2 * GRID))
+        pixels = next(fitting, theme.SMALL_PX)
+        tall = _height(self.text(), pixels, room) + 2 * GRID
+        self.setFixedHeight(-(-max(self.height(), tall) // GRID) * GRID)
         ground = theme.now(theme.GOOD if self._good else theme.ACCENT)
         style = (
             f"background: {ground}; color: {theme.now(theme.BACKGROUND)}; font-size: {pixels}px;"
@@ -131,6 +136,11 @@ class OrderBlock(PlainLabel):
         )
         if style != self.styleSheet():
             self.setStyleSheet(style)
+
+
+def _height(words: str, pixels: int, width: int) -> int:
+    metrics, flags = QFontMetrics(theme.font_of(pixels, bold=True)), Qt.TextFlag.TextWordWrap
+    return metrics.boundingRect(0, 0, max(1, width), 10_000, int(flags), words).height()
 
 
 def _fits(words: str, pixels: int, width: int, height: int) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QImage, QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QFont, QImage, QKeyEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QFrame,
@@ -282,7 +282,9 @@ class PortraitView(QWidget):
 
 
 # --- page -------------------------------------------------------------------------------------
-WORDS_WIDTH = 500
+BEGIN_WIDTH = 128
+WORDS_WIDTH, WORDS_SHARE = 500, 0.46
+"""Of the words beside the pictures: the most [px], and of the page's width."""
 
 
 class BriefingPage(QWidget):
@@ -372,6 +374,12 @@ class BriefingPage(QWidget):
         self._keys[offer.key] = widget
         self.offers[offer.name] = offer, widget
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the width between words and pictures."""
+        super().resizeEvent(event)
+        share = round(WORDS_SHARE * self.width())
+        self._area.setFixedWidth(min(theme.px(WORDS_WIDTH), share))
+
     # --- inside -------------------------------------------------------------------------------
     def _lay_out(self) -> None:
         words = QWidget()
@@ -397,7 +405,7 @@ class BriefingPage(QWidget):
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         area.setWidget(words)
-        area.setFixedWidth(theme.px(WORDS_WIDTH))
+        self._area = area
         pictures = QGridLayout()
         pictures.setSpacing(3)
         axial, coronal, sagittal = self.views
@@ -417,7 +425,7 @@ class BriefingPage(QWidget):
         buttons.addStretch(1)
         for widget in (self.show_me, self.look, self.begin):
             buttons.addWidget(widget)
-        self.begin.setMinimumWidth(theme.px(170))
+        self.begin.setMinimumWidth(theme.px(BEGIN_WIDTH))
         page = QVBoxLayout(self)
         page.setContentsMargins(2 * theme.MARGIN, theme.MARGIN, 2 * theme.MARGIN, 0)
         page.setSpacing(theme.SPACING)

@@ -160,6 +160,7 @@ def disclaimer_label(parent: QWidget | None = None) -> QLabel:
     label = PlainLabel(disclaimer(), parent)
     label.setProperty("role", "disclaimer")
     label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    label.setWordWrap(True)  # never cut, however narrow the window
     return label
 
 
