@@ -1284,8 +1284,16 @@
             <translation type="unfinished">Regelschleife wird kompiliert</translation>
         </message>
         <message>
+            <source>compiling the loop: {waited:.0f} s</source>
+            <translation type="unfinished">die Schleife wird übersetzt: {waited:.0f} s</translation>
+        </message>
+        <message>
             <source>starting robot and cameras</source>
             <translation type="unfinished">Roboter und Kameras werden gestartet</translation>
+        </message>
+        <message>
+            <source>starting robot and cameras: {waited:.0f} s</source>
+            <translation type="unfinished">Roboter und Kameras starten: {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -11393,10 +11401,6 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Unterstützung {dial}</translation>
         </message>
         <message>
-            <source>bands: {bands}</source>
-            <translation type="unfinished">Bereiche: {bands}</translation>
-        </message>
-        <message>
             <source>▲ model changed meanwhile: {models}</source>
             <translation type="unfinished">▲ Modell zwischendurch gewechselt: {models}</translation>
         </message>
@@ -11419,18 +11423,6 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>Software</source>
             <translation type="unfinished">Software</translation>
-        </message>
-        <message>
-            <source>from scripts, not people</source>
-            <translation type="unfinished">nach Skripten, nicht nach Menschen</translation>
-        </message>
-        <message>
-            <source>from people's attempts</source>
-            <translation type="unfinished">nach Versuchen von Menschen</translation>
-        </message>
-        <message>
-            <source>as the exercise's author set them</source>
-            <translation type="unfinished">wie sie die Autorin oder der Autor der Übung gesetzt hat</translation>
         </message>
         <message>
             <source>{start} as set, throughout</source>
@@ -11657,6 +11649,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Alles Übrige kostete {points}.</translation>
         </message>
         <message>
+            <source>Your plan itself: {points} of 100.</source>
+            <translation type="unfinished">Ihr Plan für sich: {points} von 100.</translation>
+        </message>
+        <message>
             <source>{size} too deep</source>
             <translation type="unfinished">{size} zu tief</translation>
         </message>
@@ -11710,6 +11706,38 @@ Buchstaben: Richtungen des Patienten
                 <numerusform>{n} Punkt</numerusform>
                 <numerusform>{n} Punkte</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>set from scripted runs, not from people</source>
+            <translation type="unfinished">nach Läufen von Skripten gesetzt, nicht nach Menschen</translation>
+        </message>
+        <message>
+            <source>set from people's attempts</source>
+            <translation type="unfinished">nach Versuchen von Menschen gesetzt</translation>
+        </message>
+        <message>
+            <source>set by the exercise's author</source>
+            <translation type="unfinished">vom Autor der Übung gesetzt</translation>
+        </message>
+        <message>
+            <source>scoring bands for the mouse</source>
+            <translation type="unfinished">Einstufung für die Maus</translation>
+        </message>
+        <message>
+            <source>scoring bands for the tablet</source>
+            <translation type="unfinished">Einstufung für das Tablet</translation>
+        </message>
+        <message>
+            <source>scoring bands for the gamepad</source>
+            <translation type="unfinished">Einstufung für das Gamepad</translation>
+        </message>
+        <message>
+            <source>scoring bands for the keyboard</source>
+            <translation type="unfinished">Einstufung für die Tastatur</translation>
+        </message>
+        <message>
+            <source>scoring bands for {hand}</source>
+            <translation type="unfinished">Einstufung für {hand}</translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -13427,6 +13455,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Broken</source>
             <translation type="unfinished">Defekt</translation>
+        </message>
+        <message>
+            <source>Before the start</source>
+            <translation type="unfinished">Vor dem Beginn</translation>
         </message>
         <message>
             <source>No attempt</source>

@@ -1284,8 +1284,16 @@
             <translation type="unfinished">compilation de la boucle de commande</translation>
         </message>
         <message>
+            <source>compiling the loop: {waited:.0f} s</source>
+            <translation type="unfinished">compilation de la boucle : {waited:.0f} s</translation>
+        </message>
+        <message>
             <source>starting robot and cameras</source>
             <translation type="unfinished">démarrage du robot et des caméras</translation>
+        </message>
+        <message>
+            <source>starting robot and cameras: {waited:.0f} s</source>
+            <translation type="unfinished">démarrage du robot et des caméras : {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -11393,10 +11401,6 @@ Lettres : directions du patient
             <translation type="unfinished">assistance {dial}</translation>
         </message>
         <message>
-            <source>bands: {bands}</source>
-            <translation type="unfinished">plages : {bands}</translation>
-        </message>
-        <message>
             <source>▲ model changed meanwhile: {models}</source>
             <translation type="unfinished">▲ modèle changé entre-temps : {models}</translation>
         </message>
@@ -11419,18 +11423,6 @@ Lettres : directions du patient
         <message>
             <source>Software</source>
             <translation type="unfinished">Logiciel</translation>
-        </message>
-        <message>
-            <source>from scripts, not people</source>
-            <translation type="unfinished">d’après des scripts, pas des personnes</translation>
-        </message>
-        <message>
-            <source>from people's attempts</source>
-            <translation type="unfinished">d’après des essais de personnes</translation>
-        </message>
-        <message>
-            <source>as the exercise's author set them</source>
-            <translation type="unfinished">telles que l’auteur de l’exercice les a fixées</translation>
         </message>
         <message>
             <source>{start} as set, throughout</source>
@@ -11657,6 +11649,10 @@ Lettres : directions du patient
             <translation type="unfinished">Le reste a coûté {points}.</translation>
         </message>
         <message>
+            <source>Your plan itself: {points} of 100.</source>
+            <translation type="unfinished">Votre plan, pris seul : {points} sur 100.</translation>
+        </message>
+        <message>
             <source>{size} too deep</source>
             <translation type="unfinished">{size} trop profond</translation>
         </message>
@@ -11710,6 +11706,38 @@ Lettres : directions du patient
                 <numerusform>{n} point</numerusform>
                 <numerusform>{n} points</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>set from scripted runs, not from people</source>
+            <translation type="unfinished">fixés d’après des scripts, pas d’après des personnes</translation>
+        </message>
+        <message>
+            <source>set from people's attempts</source>
+            <translation type="unfinished">fixés d’après des essais de personnes</translation>
+        </message>
+        <message>
+            <source>set by the exercise's author</source>
+            <translation type="unfinished">fixés par l’auteur de l’exercice</translation>
+        </message>
+        <message>
+            <source>scoring bands for the mouse</source>
+            <translation type="unfinished">paliers de note pour la souris</translation>
+        </message>
+        <message>
+            <source>scoring bands for the tablet</source>
+            <translation type="unfinished">paliers de note pour la tablette</translation>
+        </message>
+        <message>
+            <source>scoring bands for the gamepad</source>
+            <translation type="unfinished">paliers de note pour la manette</translation>
+        </message>
+        <message>
+            <source>scoring bands for the keyboard</source>
+            <translation type="unfinished">paliers de note pour le clavier</translation>
+        </message>
+        <message>
+            <source>scoring bands for {hand}</source>
+            <translation type="unfinished">paliers de note pour {hand}</translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -13427,6 +13455,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Broken</source>
             <translation type="unfinished">Endommagé</translation>
+        </message>
+        <message>
+            <source>Before the start</source>
+            <translation type="unfinished">Avant le début</translation>
         </message>
         <message>
             <source>No attempt</source>

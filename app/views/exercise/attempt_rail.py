@@ -51,6 +51,7 @@ LONGEST: Final = "-188.8 mm"
 """What a number of the rail is as wide as."""
 
 _DISC: Final = 8.0
+_INDENT: Final = 8  # a label's own, beside its padding [px]
 
 
 def rail_width(window: int) -> int:
@@ -123,12 +124,10 @@ class OrderBlock(PlainLabel):
         """Take the largest letters in which all of it can be read; if none, more height."""
         high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
         self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
-        room = self.width() - 2 * GRID
+        room = self.width() - 2 * GRID - _INDENT
         sizes = (theme.TITLE_PX, theme.FONT_PX, theme.SMALL_PX)
         fitting = (px for px in sizes if _fits(self.text(), px, room, self.height() - 2 * GRID))
         pixels = next(fitting, theme.SMALL_PX)
-        tall = _height(self.text(), pixels, room) + 2 * GRID
-        self.setFixedHeight(-(-max(self.height(), tall) // GRID) * GRID)
         ground = theme.now(theme.GOOD if self._good else theme.ACCENT)
         style = (
             f"background: {ground}; color: {theme.now(theme.BACKGROUND)}; font-size: {pixels}px;"
@@ -136,11 +135,9 @@ class OrderBlock(PlainLabel):
         )
         if style != self.styleSheet():
             self.setStyleSheet(style)
-
-
-def _height(words: str, pixels: int, width: int) -> int:
-    metrics, flags = QFontMetrics(theme.font_of(pixels, bold=True)), Qt.TextFlag.TextWordWrap
-    return metrics.boundingRect(0, 0, max(1, width), 10_000, int(flags), words).height()
+        self.ensurePolished()
+        tall = max(self.height(), self.heightForWidth(self.width()))
+        self.setFixedHeight(-(-tall // GRID) * GRID)
 
 
 def _fits(words: str, pixels: int, width: int, height: int) -> bool:
