@@ -285,7 +285,7 @@ def _problem(problem: ErrorDetails, model: type[Strict]) -> FieldProblem:
     elif isinstance(value, list):
         text = sentence("{wrong}, got a list of {n}", wrong=said, n=len(value))
     else:
-        text = sentence("{wrong}, got {value}", wrong=said, value=shown(value))
+        text = sentence("{wrong}, got {entry}", wrong=said, entry=shown(value))
     if problem["type"] == "extra_forbidden" and len(problem["loc"]) == 1:
         names = ", ".join(field.alias or name for name, field in model.model_fields.items())
         text = sentence("{wrong}; valid names: {names}", wrong=text, names=names)

@@ -142,13 +142,13 @@ def _one_of(expected: str) -> str:
 
 def _of_length(kind: str, values: Mapping[str, Any]) -> str:
     limit = int(values["min_length" if kind == "too_short" else "max_length"])
-    facts = {"what": values["field_type"], "items": limit, "n": values["actual_length"]}
+    facts = {"kind": values["field_type"], "items": limit, "n": values["actual_length"]}
     if kind == "too_short" and limit != 1:
         return sentence(
-            "{what} should have at least {items} items after validation, not {n}", **facts
+            "{kind} should have at least {items} items after validation, not {n}", **facts
         )
     if kind == "too_long" and limit != 1:
         return sentence(
-            "{what} should have at most {items} items after validation, not {n}", **facts
+            "{kind} should have at most {items} items after validation, not {n}", **facts
         )
     return ""

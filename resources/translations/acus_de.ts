@@ -1524,8 +1524,8 @@
             <translation type="unfinished">{wrong}; angegeben ist eine Liste mit {n} Einträgen</translation>
         </message>
         <message>
-            <source>{wrong}, got {value}</source>
-            <translation type="unfinished">{wrong}; angegeben ist {value}</translation>
+            <source>{wrong}, got {entry}</source>
+            <translation type="unfinished">{wrong}; angegeben ist {entry}</translation>
         </message>
         <message>
             <source>{wrong}; valid names: {names}</source>
@@ -19460,12 +19460,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">hier muss {names} oder {last} stehen</translation>
         </message>
         <message>
-            <source>{what} should have at least {items} items after validation, not {n}</source>
-            <translation type="unfinished">die Liste ({what}) muss mindestens {items} Einträge haben, nicht {n}</translation>
+            <source>{kind} should have at least {items} items after validation, not {n}</source>
+            <translation type="unfinished">die Liste ({kind}) muss mindestens {items} Einträge haben, nicht {n}</translation>
         </message>
         <message>
-            <source>{what} should have at most {items} items after validation, not {n}</source>
-            <translation type="unfinished">die Liste ({what}) darf höchstens {items} Einträge haben, nicht {n}</translation>
+            <source>{kind} should have at most {items} items after validation, not {n}</source>
+            <translation type="unfinished">die Liste ({kind}) darf höchstens {items} Einträge haben, nicht {n}</translation>
         </message>
     </context>
 </TS>

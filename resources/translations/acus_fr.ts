@@ -1524,8 +1524,8 @@
             <translation type="unfinished">{wrong} ; donné : une liste de {n} éléments</translation>
         </message>
         <message>
-            <source>{wrong}, got {value}</source>
-            <translation type="unfinished">{wrong} ; donné : {value}</translation>
+            <source>{wrong}, got {entry}</source>
+            <translation type="unfinished">{wrong} ; donné : {entry}</translation>
         </message>
         <message>
             <source>{wrong}; valid names: {names}</source>
@@ -19460,12 +19460,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">il faut {names} ou {last}</translation>
         </message>
         <message>
-            <source>{what} should have at least {items} items after validation, not {n}</source>
-            <translation type="unfinished">la liste ({what}) doit avoir au moins {items} éléments, pas {n}</translation>
+            <source>{kind} should have at least {items} items after validation, not {n}</source>
+            <translation type="unfinished">la liste ({kind}) doit avoir au moins {items} éléments, pas {n}</translation>
         </message>
         <message>
-            <source>{what} should have at most {items} items after validation, not {n}</source>
-            <translation type="unfinished">la liste ({what}) doit avoir au plus {items} éléments, pas {n}</translation>
+            <source>{kind} should have at most {items} items after validation, not {n}</source>
+            <translation type="unfinished">la liste ({kind}) doit avoir au plus {items} éléments, pas {n}</translation>
         </message>
     </context>
 </TS>

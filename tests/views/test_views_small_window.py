@@ -37,12 +37,15 @@ def test_a_screen_of_900_by_560_has_room_for_the_window(window):
     window.resize(WIDTH, HEIGHT)
     for role in (Role.TECHNICIAN, Role.INSTRUCTOR, Role.STUDENT):
         window.roles.choose(role)
+        QApplication.processEvents()
         for place in range(window.pages.count()):
             page = window.pages.widget(place)
             least = page.minimumSizeHint()
             assert least.width() <= WIDTH, type(page).__name__
     for place in range(window.pages.count()):
         page = window.pages.widget(place)
+        window.pages.setCurrentWidget(page)
+        QApplication.processEvents()
         least = page.minimumSizeHint()
         assert least.height() + window.menuBar().height() <= HEIGHT, type(page).__name__
     window.pages.setCurrentWidget(window.start_page)

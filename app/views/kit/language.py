@@ -98,7 +98,7 @@ class _Lacking(_Translation):
         """Return that it holds something: Qt asks no other."""
         return False
 
-    def translate(  # type: ignore[override]  # none is a null string of Qt, "" would be one
+    def translate(  # None is a null string of Qt, "" would be one
         self,
         context: str,
         sourceText: str,
