@@ -27,6 +27,7 @@ from app.core import plugin_folders
 from app.core.errors import AcusError
 from app.core.files import read_at_most
 from app.core.messages import sentence
+from app.scoring.unit_words import unit_words
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
@@ -228,7 +229,8 @@ def _tell(result: AttemptResult, script: DemonstrationScript, hurried: bool) -> 
     if score is not None:
         here = language()
         for row in score.rows:
-            value = "–" if row.value is None else f"{here.number(row.value, 'z.2f')} {row.unit}"
+            unit = local(unit_words(row.unit))
+            value = "–" if row.value is None else f"{here.number(row.value, 'z.2f')} {unit}"
             typer.echo(f"  {here.text(row.label):<28} {value}".rstrip())
         points = sentence("{total:.0f} of 100", total=score.total or 0.0)
         total = sentence("void") if score.total is None else points

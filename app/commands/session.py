@@ -420,7 +420,7 @@ def _print_table(summaries: list[Any], note: str) -> None:
     table.add_column("", min_width=12)
     for s in summaries:
         whose = _nobodys(s.conditions)
-        remark = joined("; ", filter(None, (whose, s.reason or joined("; ", s.problems))))
+        remark = joined("; ", filter(None, (whose, known(s.reason) or joined("; ", s.problems))))
         cells = (
             s.id,
             s.student,
@@ -463,11 +463,16 @@ def _nobodys(conditions: Any) -> str:
     """Say that an attempt is nobody's, and what held the needle; empty for a person's."""
     if conditions is None or conditions.by_person:
         return ""
-    return sentence("no student's attempt: {hands}", hands=conditions.hands or "script")
+    hands = known(conditions.hand or "script")
+    if conditions.taken_over:
+        later = known(conditions.taken_over)
+        hands = sentence("{first} then {later}", first=hands, later=later)
+    return sentence("no student's attempt: {hands}", hands=hands)
 
 
 def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
     from app.scoring.rows import shown_sd
+    from app.scoring.unit_words import unit_words
 
     score, metadata = document["score"] or {}, document["metadata"]
     radius, exercise = document["tip_radius_95_mm"], document["exercise"]
@@ -494,9 +499,9 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
     for row in score.get("rows", []):
         sd = shown_sd(row["name"], row["value"], row.get("sd"))
         unsure = f" ± {language().number(sd, '.1g')}" if sd else ""
-        value = "-"
+        value, unit = "-", local(unit_words(row["unit"]))
         if row["value"] is not None:
-            value = f"{language().number(row['value'], '.4g')}{unsure} {row['unit']}"
+            value = f"{language().number(row['value'], '.4g')}{unsure} {unit}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
         label = known(row["label"])
         lines.append(f"  {label:32} {value:>20}  {known(band or row['note'] or '')}")

@@ -15,7 +15,7 @@ from app.core.clock import SystemClock
 from app.core.loading import load_modules, turn
 from app.core.messages import sentence
 from app.core.paced_clock import PacedClock
-from app.core.progress import Progress
+from app.core.progress import Progress, elapsed_share, moving
 from app.device.errors import LoopError
 from app.exercises.library import library
 from app.exercises.portrait import Portrait, find_portrait
@@ -61,6 +61,7 @@ DEMONSTRATOR: Final = "expert"
 
 _PATIENCE: Final = 120.0
 _LOOK: Final = 0.02
+_LONG: Final = 2.0  # what lasts longer [s] says for how long already
 
 
 def unusable_files() -> tuple[str, ...]:
@@ -203,7 +204,6 @@ class Desktop:
         tissues = load_field(setup.exercise, setup.volume, plan, progress.part(0.1, 0.6))
         exercise = with_tissue(setup.exercise, setup.volume, plan)
         exercise, _ = resolve_tissue(exercise, setup.placed, tissues)
-        progress.report(0.6, sentence("compiling the loop"))
         seed = setup.exercise.seed if self._seed is None else self._seed
         ct = setup.ct
         if setup.volume is not None:  # by it the debrief knows the CT again
@@ -233,7 +233,8 @@ class Desktop:
             hand_seed=randbits(32) if self._seed is None else None,
             script=None if shown is None else shown.script(setup.placed),
         )
-        rig = build_rig(trainer)
+        with moving(progress.part(0.6, 0.8), _compiling):
+            rig = build_rig(trainer)
         try:
             rig.trainer.open()
             _wait_until_alive(rig, progress)
@@ -241,6 +242,13 @@ class Desktop:
             rig.close()
             raise
         return DesktopRun(rig, kept if shows else None)
+
+
+def _compiling(waited: float) -> str:
+    """Say that the loop is compiled, and for how long already [s]."""
+    if waited < _LONG:
+        return sentence("compiling the loop")
+    return sentence("compiling the loop: {waited:.0f} s", waited=waited)
 
 
 def _wait_until_alive(rig: Rig, progress: Progress) -> None:
@@ -251,7 +259,10 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
     clock = SystemClock()  # another's time may stand until the loop ticks
     begin = clock.now()
     while (waited := clock.now() - begin) < _PATIENCE:
-        progress.report(0.8, sentence("starting robot and cameras"))
+        said = sentence("starting robot and cameras")
+        if waited >= _LONG:
+            said = sentence("starting robot and cameras: {waited:.0f} s", waited=waited)
+        progress.report(0.8 + 0.2 * elapsed_share(waited), said)
         rig.trainer.heartbeat()
         if rig.loop.latest().tick > 0 and rig.tracker.latest.read() is not None:
             return

@@ -14,7 +14,8 @@ from pydantic_core import ErrorDetails
 from app.core.errors import ConfigurationError
 from app.core.files import LARGEST_FILE as LARGEST_FILE
 from app.core.files import read_at_most
-from app.core.messages import Sentence, sentence
+from app.core.library_words import check_words
+from app.core.messages import Sentence, joined, sentence
 
 M = TypeVar("M", bound="Strict")
 
@@ -216,17 +217,19 @@ def parse(document: Any, model: type[M], origin: str, text: str = "") -> M:
     except ValidationError as error:
         problems = _problems(error, model)
         missing = [one.name for one in problems if one.missing]
-        said = [f"required and missing: {', '.join(missing)}"] if missing else []
+        names = ", ".join(missing)
+        said = [sentence("required and missing: {names}", names=names)] if missing else []
         wrong = [one for one in problems if not one.missing]
         room = MOST_PROBLEMS - len(said)
         node = yaml.compose(text, Loader=_UniqueKeyLoader) if text else None
         for one in wrong[:room]:
             line = _line(node, one.field)
-            said.append(f"{one.name}: {one.text}" + (f" (line {line})" if line else ""))
+            at = sentence(" (line {line})", line=line) if line else ""
+            said.append(joined("", (one.name, ": ", one.text, at)))
         if len(wrong) > room:
-            said.append(f"and {len(wrong) - room} more like these")
+            said.append(sentence("and {n} more like these", n=len(wrong) - room))
         raise ConfigurationError(
-            sentence("{origin}: {faults}", origin=origin, faults="; ".join(said))
+            sentence("{origin}: {faults}", origin=origin, faults=joined("; ", said))
         ) from error
 
 
@@ -269,21 +272,23 @@ def _problems(error: ValidationError, model: type[Strict]) -> tuple[FieldProblem
 def _problem(problem: ErrorDetails, model: type[Strict]) -> FieldProblem:
     """Say what is wrong with one field; of a mapping or a list its kind, not all that it holds."""
     if problem["type"] == "missing":
-        return FieldProblem(problem["loc"], "required and missing", missing=True)
+        return FieldProblem(problem["loc"], sentence("required and missing"), missing=True)
     value = problem.get("input")
-    said = problem["msg"].removeprefix("Value error, ")  # of the library, about our own words
+    said = check_words(problem["type"], problem["msg"], problem.get("ctx", {}))
+    said = said if isinstance(said, Sentence) else said.removeprefix("Value error, ")
     if problem["type"] in ("model_type", "model_attributes_type", "dict_type"):
-        said = "should be names with values, each as `name: value`"
-    text = f"{said}, got "
+        said = sentence("should be names with values, each as `name: value`")
     if isinstance(value, dict | list) and problem["type"] == "value_error":
         text = said  # our own words name what is wrong within
-    elif isinstance(value, dict | list):
-        text += f"a {'mapping' if isinstance(value, dict) else 'list'} of {len(value)}"
+    elif isinstance(value, dict):
+        text = sentence("{wrong}, got a mapping of {n}", wrong=said, n=len(value))
+    elif isinstance(value, list):
+        text = sentence("{wrong}, got a list of {n}", wrong=said, n=len(value))
     else:
-        text += shown(value)
+        text = sentence("{wrong}, got {entry}", wrong=said, entry=shown(value))
     if problem["type"] == "extra_forbidden" and len(problem["loc"]) == 1:
-        valid = (field.alias or name for name, field in model.model_fields.items())
-        text += f"; valid names: {', '.join(valid)}"
+        names = ", ".join(field.alias or name for name, field in model.model_fields.items())
+        text = sentence("{wrong}; valid names: {names}", wrong=text, names=names)
     return FieldProblem(problem["loc"] or _first_word(said, model), text)
 
 

@@ -1,9 +1,18 @@
 """Progress and cancel for anything that can last over half a second."""
 
 import threading
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from math import exp
 
 from app.core.errors import AcusError
+
+USUAL_S = 20.0
+"""A bar of work that cannot tell how far it is has two thirds of its way behind it by then."""
+
+LOOK_S = 0.25
+"""So often such a bar is moved [s]."""
 
 
 class Cancelled(AcusError):  # noqa: N818  (a request, not an error)
@@ -50,3 +59,37 @@ class Progress:
         part = Progress(lambda fraction, text: self.report(start + (end - start) * fraction, text))
         part._cancelled = self._cancelled
         return part
+
+
+def elapsed_share(waited: float) -> float:
+    """Return where a bar stands after a time [s]: it always moves on, and never arrives."""
+    return 1.0 - exp(-max(0.0, waited) / USUAL_S)
+
+
+@contextmanager
+def moving(progress: Progress, words: Callable[[float], str]) -> Iterator[None]:
+    """Let a bar move by time while work goes on that cannot tell how far it is.
+
+    Args:
+        progress: of that work; told from another thread, four times a second.
+        words: returns what is said after so many seconds.
+
+    Raises:
+        Cancelled: if `progress` was cancelled before.
+    """
+    begin, over = time.monotonic(), threading.Event()
+    progress.report(0.0, words(0.0))
+
+    def move() -> None:
+        with suppress(Cancelled):  # the work itself ends where it can
+            while not over.wait(LOOK_S):
+                waited = time.monotonic() - begin
+                progress.report(elapsed_share(waited), words(waited))
+
+    mover = threading.Thread(target=move, name="acus-progress", daemon=True)
+    mover.start()
+    try:
+        yield
+    finally:
+        over.set()
+        mover.join()

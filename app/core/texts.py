@@ -13,6 +13,7 @@ from datetime import date, datetime
 from string import Formatter
 from typing import Any, TypeAlias
 
+from app.core.library_words import system_words
 from app.core.messages import Sentence, sentence, sentence_of
 
 Lookup: TypeAlias = Callable[[str, int], str]
@@ -95,12 +96,15 @@ class Texts(Formatter):
             return pattern.format(**values)
         return self.vformat(pattern, (), values)
 
+    def _sentence(self, value: object) -> object:
+        """Return a value as the sentence that it is, or that it stands for."""
+        text = sentence_of(value) if isinstance(value, BaseException) else value
+        if self.is_english or isinstance(text, Sentence) or not isinstance(text, str):
+            return text
+        return system_words(text)
+
     def _shown(self, values: Mapping[str, object]) -> dict[str, object]:
-        sentences = {
-            name: value if isinstance(value, Sentence) else sentence_of(value)
-            for name, value in values.items()
-            if isinstance(value, Sentence | BaseException)
-        }
+        sentences = {name: self._sentence(value) for name, value in values.items()}
         parts = {name: part for name, part in sentences.items() if isinstance(part, Sentence)}
         return {**values, **{name: self.translated(part) for name, part in parts.items()}}
 

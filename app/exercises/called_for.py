@@ -107,7 +107,9 @@ class Reachable:
         """Say it: "rib at 12 mm"."""
         if self.depth_mm is None:
             return self.tissue.words
-        return f"{self.tissue.words} at {self.depth_mm:.0f} mm"
+        return sentence(
+            "{tissue} at {depth_mm:.0f} mm", tissue=self.tissue.words, depth_mm=self.depth_mm
+        )
 
 
 def called_for(

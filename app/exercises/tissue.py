@@ -94,7 +94,7 @@ def _layers_of(field: TissueField, met: Sequence[Crossed]) -> tuple[LayerPart, .
         kind = values[run.code]
         if kind.moves is None:
             kind = replace(kind, moves=float(tissue.kind in MOVING))
-        name = tissue.words
+        name = str(tissue.words)  # a file has it as plain text
         if layers and name.strip().casefold() == "skin":  # as a layer it would be refused
             name = f"{name} below {layers[-1].name}"
         layers.append(_part(kind, name, end - begin))

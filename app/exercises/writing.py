@@ -149,7 +149,11 @@ def _write(path: Path, text: str) -> None:
     try:
         write_atomically(path, text)
     except OSError as error:
-        why = f"cannot write {path}: {error.strerror or error}; nothing was changed"
+        why = sentence(
+            "cannot write {path}: {why}; nothing was changed",
+            path=path,
+            why=error.strerror or error,
+        )
         raise ExerciseError(why) from error
 
 

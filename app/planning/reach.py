@@ -293,7 +293,7 @@ def _direction_reasons(axis: FloatArray, limits: ReachLimits) -> tuple[ReachReas
     point = limits.tool_point(axis)
     if point is None:
         way = (
-            "horizontal"
+            sentence("horizontal")
             if tilt < 90.001
             else sentence("upward (tilt {tilt:.1f}° of 180°)", tilt=tilt)
         )
@@ -304,7 +304,8 @@ def _direction_reasons(axis: FloatArray, limits: ReachLimits) -> tuple[ReachReas
         )
         return (ReachReason(Obstacle.UPWARD, text),)
     if tilt_of(axis) > limits.tilt_limit + 1e-9:
-        return (ReachReason(Obstacle.TILT, f"tilt {tilt:.1f}° exceeds {limit:g}°"),)
+        text = sentence("tilt {tilt:.1f}° exceeds {limit:g}°", tilt=tilt, limit=limit)
+        return (ReachReason(Obstacle.TILT, text),)
     if not limits.in_workspace(*point):
         x, y = (value / MILLIMETRE for value in point)
         text = sentence(

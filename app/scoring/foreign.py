@@ -104,7 +104,15 @@ class _Processes:
         try:
             key = path, path.stat().st_mtime_ns
         except OSError as error:
-            return MetricOutcome(None, None, f"{path} cannot be read: {error.strerror or error}")
+            return MetricOutcome(
+                None,
+                None,
+                sentence(
+                    "{path} cannot be read: {error_strerror}",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                ),
+            )
         with self._lock:
             if key not in self._costly:
                 try:

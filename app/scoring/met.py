@@ -13,6 +13,7 @@ from typing import Any, Final
 
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
+from app.imaging.field.tissue_words import tissue_words
 from app.scoring.errors import TrajectoryError
 
 FORBIDDEN: Final = ("bone", "vessel", "gut", "heart", "lung")
@@ -95,7 +96,7 @@ class Met:
     @property
     def words(self) -> str:
         """Return what was met, for people: the name, else the kind."""
-        return self.name or self.kind
+        return tissue_words(self.name or self.kind)
 
     @property
     def is_bone(self) -> bool:

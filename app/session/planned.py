@@ -13,6 +13,7 @@ from typing import Any, Final
 from app.core.events import Event
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueField, TissueKind
+from app.imaging.field.tissue_words import tissue_words
 from app.planning.errors import PlanError
 from app.planning.judged import WEIGHTS, JudgedPlan, WayHindrance
 from app.planning.placement import PlacedPlan
@@ -105,7 +106,7 @@ def plan_sentences(plan: JudgedPlan) -> tuple[str, ...]:
         sentence(
             "The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.",
             length_mm=one.length_mm,
-            tissue=one.name,
+            tissue=tissue_words(one.name),
             depth_mm=one.depth_mm,
         )
         for one in plan.meets
@@ -133,7 +134,7 @@ def plan_sentences(plan: JudgedPlan) -> tuple[str, ...]:
             sentence(
                 "The path comes within {mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.",
                 mm=plan.clear_mm,
-                tissue=plan.nearest,
+                tissue=tissue_words(plan.nearest),
                 depth_mm=plan.nearest_mm,
             )
         )

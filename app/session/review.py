@@ -18,6 +18,7 @@ from app.exercises.drill import DrillKind, DrillPart
 from app.exercises.scene import scene_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import parse_profile
+from app.planning.judged import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.met import Met
@@ -198,6 +199,7 @@ class Review:
         tolerances: of the attempt's exercise, by metric; those left out are the default's.
         reasons: metric -> sentences that say why it cost points; those left out cost none, or the
             record does not tell.
+        planned: what a planner says of the student's own path; None where it was given.
         drill: what it was a drill of; None for a whole exercise.
         practise: the drill that it calls for; None where it calls for none.
     """
@@ -234,6 +236,7 @@ class Review:
     touches: tuple[Event, ...] = ()
     tolerances: Mapping[str, Bands] = field(default_factory=dict)
     reasons: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    planned: JudgedPlan | None = None
     drill: DrillPart | None = None
     practise: DrillKind | None = None
 
@@ -342,6 +345,7 @@ def review(recording: Recording) -> Review:
         tolerances=tolerances,
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
         reasons={row.name: reasons(row.name, past) for _, row in score.losses} if score else {},
+        planned=None if withheld else past.planned,
         drill=None if exercise is None else exercise.drill,
         practise=drill_for(score, past, exercise),
     )

@@ -72,7 +72,8 @@ def find(folder: Path, session_id: str) -> Path:
     fitting = [session_id] if session_id in names else alike
     if len(fitting) == 1 and session_id:
         return names[fitting[0]]
-    what = "fits several sessions" if fitting and session_id else "is no session"
+    many = fitting and session_id
+    what = sentence("fits several sessions") if many else sentence("is no session")
     raise SessionNotFoundError(
         sentence(
             "{session_id!r} {trouble} in {folder}: `acus session list` says which there are",

@@ -1140,6 +1140,10 @@
             <translation type="unfinished">{total:.0f} %</translation>
         </message>
         <message>
+            <source>{first} then {later}</source>
+            <translation type="unfinished">{first}, dann {later}</translation>
+        </message>
+        <message>
             <source>no student's attempt: {hands}</source>
             <translation type="unfinished">kein Versuch eines Teilnehmers: {hands}</translation>
         </message>
@@ -1280,8 +1284,16 @@
             <translation type="unfinished">Regelschleife wird kompiliert</translation>
         </message>
         <message>
+            <source>compiling the loop: {waited:.0f} s</source>
+            <translation type="unfinished">die Schleife wird übersetzt: {waited:.0f} s</translation>
+        </message>
+        <message>
             <source>starting robot and cameras</source>
             <translation type="unfinished">Roboter und Kameras werden gestartet</translation>
+        </message>
+        <message>
+            <source>starting robot and cameras: {waited:.0f} s</source>
+            <translation type="unfinished">Roboter und Kameras starten: {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -1484,8 +1496,40 @@
             <translation type="unfinished">{origin} ist kein gültiges YAML: {line}</translation>
         </message>
         <message>
+            <source>required and missing: {names}</source>
+            <translation type="unfinished">nötig und nicht angegeben: {names}</translation>
+        </message>
+        <message>
+            <source>and {n} more like these</source>
+            <translation type="unfinished">und {n} weitere dieser Art</translation>
+        </message>
+        <message>
             <source>{origin}: {faults}</source>
             <translation type="unfinished">{origin}: {faults}</translation>
+        </message>
+        <message>
+            <source>required and missing</source>
+            <translation type="unfinished">nötig und nicht angegeben</translation>
+        </message>
+        <message>
+            <source>should be names with values, each as `name: value`</source>
+            <translation type="unfinished">hier müssen Namen mit Werten stehen, jeder als `name: value`</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a mapping of {n}</source>
+            <translation type="unfinished">{wrong}; angegeben sind {n} Namen mit Werten</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a list of {n}</source>
+            <translation type="unfinished">{wrong}; angegeben ist eine Liste mit {n} Einträgen</translation>
+        </message>
+        <message>
+            <source>{wrong}, got {entry}</source>
+            <translation type="unfinished">{wrong}; angegeben ist {entry}</translation>
+        </message>
+        <message>
+            <source>{wrong}; valid names: {names}</source>
+            <translation type="unfinished">{wrong}; gültige Namen: {names}</translation>
         </message>
         <message>
             <source>{package} is not installed; install the extra `{extra}`: {install_command}</source>
@@ -2408,6 +2452,10 @@
             <translation type="unfinished">{effect} ist nötig und fehlt: {reason}; ergänzen Sie es, oder begründen Sie, warum nicht: without: {{{effect}: "…"}}</translation>
         </message>
         <message>
+            <source>{tissue} at {depth_mm:.0f} mm</source>
+            <translation type="unfinished">{tissue} bei {depth_mm:.0f} mm</translation>
+        </message>
+        <message>
             <source>exercise {exercise_id}: without: {stranger} is not called for: nothing within reach needs it ({reasons}); take it out</source>
             <translation type="unfinished">Übung {exercise_id}: without: {stranger} ist nicht nötig: Nichts in Reichweite braucht es ({reasons}); nehmen Sie es heraus</translation>
         </message>
@@ -2638,6 +2686,10 @@
         <message>
             <source>exercise {exercise_id} cannot be written as YAML: it reads back otherwise</source>
             <translation type="unfinished">die Übung {exercise_id} lässt sich nicht als YAML schreiben: Wieder gelesen ist sie anders</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {why}; nothing was changed</source>
+            <translation type="unfinished">{path} kann nicht geschrieben werden: {why}; nichts wurde geändert</translation>
         </message>
         <message>
             <source>id: {exercise_id!r} is an exercise that comes with Acus and stays as it is: save yours under another id (duplicate it)</source>
@@ -4752,12 +4804,20 @@
             <translation type="unfinished">außer Reichweite: {reasons}. Abhilfe: {remedy}</translation>
         </message>
         <message>
+            <source>horizontal</source>
+            <translation type="unfinished">waagerecht</translation>
+        </message>
+        <message>
             <source>upward (tilt {tilt:.1f}° of 180°)</source>
             <translation type="unfinished">aufwärts (Neigung {tilt:.1f}° von 180°)</translation>
         </message>
         <message>
             <source>the path runs {way}; the needle enters from above, at most {limit:g}° from vertical</source>
             <translation type="unfinished">der Pfad verläuft {way}; die Nadel sticht von oben ein, höchstens {limit:g}° von der Senkrechten</translation>
+        </message>
+        <message>
+            <source>tilt {tilt:.1f}° exceeds {limit:g}°</source>
+            <translation type="unfinished">die Neigung von {tilt:.1f}° übersteigt {limit:g}°</translation>
         </message>
         <message>
             <source>tool point ({x:.1f}, {y:.1f}) mm lies outside the robot's workspace</source>
@@ -6386,6 +6446,14 @@
         <message>
             <source>a recovery key has eight groups of four letters and digits: type it again</source>
             <translation type="unfinished">ein Wiederherstellungsschlüssel hat acht Gruppen aus vier Buchstaben und Ziffern: Geben Sie ihn noch einmal ein</translation>
+        </message>
+        <message>
+            <source>fits several sessions</source>
+            <translation type="unfinished">passt auf mehrere Sitzungen</translation>
+        </message>
+        <message>
+            <source>is no session</source>
+            <translation type="unfinished">ist keine Sitzung</translation>
         </message>
         <message>
             <source>{session_id!r} {trouble} in {folder}: `acus session list` says which there are</source>
@@ -8624,6 +8692,10 @@
             <translation type="unfinished">Bei {depth:.0f} mm ist Knochen im Weg, vor dem Ziel bei {length:.0f} mm: Keine Nadel erreicht es. Wählen Sie einen anderen Einstichpunkt.</translation>
         </message>
         <message>
+            <source>cannot write in {folder}: {why}</source>
+            <translation type="unfinished">in {folder} kann nicht geschrieben werden: {why}</translation>
+        </message>
+        <message>
             <source>Exercise</source>
             <translation type="unfinished">Übung</translation>
         </message>
@@ -9413,6 +9485,10 @@ Anteil</translation>
         <message>
             <source>✔ The exercise can be used.</source>
             <translation type="unfinished">✔ Die Übung ist verwendbar.</translation>
+        </message>
+        <message>
+            <source>the board cannot be written to {path}: {why}</source>
+            <translation type="unfinished">die Tafel kann nicht nach {path} geschrieben werden: {why}</translation>
         </message>
         <message>
             <source>Calibration board {spec}</source>
@@ -10593,12 +10669,200 @@ Anteil</translation>
             <translation type="unfinished">Lunge</translation>
         </message>
         <message>
+            <source>air</source>
+            <translation type="unfinished">Luft</translation>
+        </message>
+        <message>
+            <source>fat</source>
+            <translation type="unfinished">Fett</translation>
+        </message>
+        <message>
+            <source>muscle</source>
+            <translation type="unfinished">Muskel</translation>
+        </message>
+        <message>
             <source>gut</source>
             <translation type="unfinished">Darm</translation>
         </message>
         <message>
             <source>heart</source>
             <translation type="unfinished">Herz</translation>
+        </message>
+        <message>
+            <source>diaphragm</source>
+            <translation type="unfinished">Zwerchfell</translation>
+        </message>
+        <message>
+            <source>cartilage</source>
+            <translation type="unfinished">Knorpel</translation>
+        </message>
+        <message>
+            <source>disc</source>
+            <translation type="unfinished">Bandscheibe</translation>
+        </message>
+        <message>
+            <source>liver</source>
+            <translation type="unfinished">Leber</translation>
+        </message>
+        <message>
+            <source>gallbladder</source>
+            <translation type="unfinished">Gallenblase</translation>
+        </message>
+        <message>
+            <source>pancreas</source>
+            <translation type="unfinished">Bauchspeicheldrüse</translation>
+        </message>
+        <message>
+            <source>spleen</source>
+            <translation type="unfinished">Milz</translation>
+        </message>
+        <message>
+            <source>kidney</source>
+            <translation type="unfinished">Niere</translation>
+        </message>
+        <message>
+            <source>adrenal</source>
+            <translation type="unfinished">Nebenniere</translation>
+        </message>
+        <message>
+            <source>bladder</source>
+            <translation type="unfinished">Harnblase</translation>
+        </message>
+        <message>
+            <source>prostate</source>
+            <translation type="unfinished">Prostata</translation>
+        </message>
+        <message>
+            <source>uterus</source>
+            <translation type="unfinished">Gebärmutter</translation>
+        </message>
+        <message>
+            <source>thyroid</source>
+            <translation type="unfinished">Schilddrüse</translation>
+        </message>
+        <message>
+            <source>brain</source>
+            <translation type="unfinished">Gehirn</translation>
+        </message>
+        <message>
+            <source>lesion</source>
+            <translation type="unfinished">Läsion</translation>
+        </message>
+        <message>
+            <source>nodule</source>
+            <translation type="unfinished">Rundherd</translation>
+        </message>
+        <message>
+            <source>lung nodule</source>
+            <translation type="unfinished">Lungenrundherd</translation>
+        </message>
+        <message>
+            <source>tumour</source>
+            <translation type="unfinished">Tumor</translation>
+        </message>
+        <message>
+            <source>cyst</source>
+            <translation type="unfinished">Zyste</translation>
+        </message>
+        <message>
+            <source>spinal canal</source>
+            <translation type="unfinished">Wirbelkanal</translation>
+        </message>
+        <message>
+            <source>gas</source>
+            <translation type="unfinished">Gas</translation>
+        </message>
+        <message>
+            <source>stomach</source>
+            <translation type="unfinished">Magen</translation>
+        </message>
+        <message>
+            <source>small bowel</source>
+            <translation type="unfinished">Dünndarm</translation>
+        </message>
+        <message>
+            <source>colon</source>
+            <translation type="unfinished">Dickdarm</translation>
+        </message>
+        <message>
+            <source>duodenum</source>
+            <translation type="unfinished">Zwölffingerdarm</translation>
+        </message>
+        <message>
+            <source>trachea</source>
+            <translation type="unfinished">Luftröhre</translation>
+        </message>
+        <message>
+            <source>bronchus</source>
+            <translation type="unfinished">Bronchus</translation>
+        </message>
+        <message>
+            <source>oesophagus</source>
+            <translation type="unfinished">Speiseröhre</translation>
+        </message>
+        <message>
+            <source>small vessel</source>
+            <translation type="unfinished">kleines Gefäß</translation>
+        </message>
+        <message>
+            <source>lung vessel</source>
+            <translation type="unfinished">Lungengefäß</translation>
+        </message>
+        <message>
+            <source>artery</source>
+            <translation type="unfinished">Arterie</translation>
+        </message>
+        <message>
+            <source>vein</source>
+            <translation type="unfinished">Vene</translation>
+        </message>
+        <message>
+            <source>aorta</source>
+            <translation type="unfinished">Aorta</translation>
+        </message>
+        <message>
+            <source>vena cava</source>
+            <translation type="unfinished">Hohlvene</translation>
+        </message>
+        <message>
+            <source>portal vein</source>
+            <translation type="unfinished">Pfortader</translation>
+        </message>
+        <message>
+            <source>hepatic vein</source>
+            <translation type="unfinished">Lebervene</translation>
+        </message>
+        <message>
+            <source>contrast</source>
+            <translation type="unfinished">Kontrastmittel</translation>
+        </message>
+        <message>
+            <source>bone or contrast</source>
+            <translation type="unfinished">Knochen oder Kontrastmittel</translation>
+        </message>
+        <message>
+            <source>rib</source>
+            <translation type="unfinished">Rippe</translation>
+        </message>
+        <message>
+            <source>vertebra</source>
+            <translation type="unfinished">Wirbel</translation>
+        </message>
+        <message>
+            <source>sternum</source>
+            <translation type="unfinished">Brustbein</translation>
+        </message>
+        <message>
+            <source>scapula</source>
+            <translation type="unfinished">Schulterblatt</translation>
+        </message>
+        <message>
+            <source>spine</source>
+            <translation type="unfinished">Wirbelsäule</translation>
+        </message>
+        <message>
+            <source>pelvis</source>
+            <translation type="unfinished">Becken</translation>
         </message>
         <message>
             <source>organ</source>
@@ -11141,10 +11405,6 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Unterstützung {dial}</translation>
         </message>
         <message>
-            <source>bands: {bands}</source>
-            <translation type="unfinished">Bereiche: {bands}</translation>
-        </message>
-        <message>
             <source>▲ model changed meanwhile: {models}</source>
             <translation type="unfinished">▲ Modell zwischendurch gewechselt: {models}</translation>
         </message>
@@ -11167,18 +11427,6 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>Software</source>
             <translation type="unfinished">Software</translation>
-        </message>
-        <message>
-            <source>from scripts, not people</source>
-            <translation type="unfinished">nach Skripten, nicht nach Menschen</translation>
-        </message>
-        <message>
-            <source>from people's attempts</source>
-            <translation type="unfinished">nach Versuchen von Menschen</translation>
-        </message>
-        <message>
-            <source>as the exercise's author set them</source>
-            <translation type="unfinished">wie sie die Autorin oder der Autor der Übung gesetzt hat</translation>
         </message>
         <message>
             <source>{start} as set, throughout</source>
@@ -11405,6 +11653,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Alles Übrige kostete {points}.</translation>
         </message>
         <message>
+            <source>Your plan itself: {points} of 100.</source>
+            <translation type="unfinished">Ihr Plan für sich: {points} von 100.</translation>
+        </message>
+        <message>
             <source>{size} too deep</source>
             <translation type="unfinished">{size} zu tief</translation>
         </message>
@@ -11458,6 +11710,38 @@ Buchstaben: Richtungen des Patienten
                 <numerusform>{n} Punkt</numerusform>
                 <numerusform>{n} Punkte</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>set from scripted runs, not from people</source>
+            <translation type="unfinished">nach Läufen von Skripten gesetzt, nicht nach Menschen</translation>
+        </message>
+        <message>
+            <source>set from people's attempts</source>
+            <translation type="unfinished">nach Versuchen von Menschen gesetzt</translation>
+        </message>
+        <message>
+            <source>set by the exercise's author</source>
+            <translation type="unfinished">vom Autor der Übung gesetzt</translation>
+        </message>
+        <message>
+            <source>scoring bands for the mouse</source>
+            <translation type="unfinished">Einstufung für die Maus</translation>
+        </message>
+        <message>
+            <source>scoring bands for the tablet</source>
+            <translation type="unfinished">Einstufung für das Tablet</translation>
+        </message>
+        <message>
+            <source>scoring bands for the gamepad</source>
+            <translation type="unfinished">Einstufung für das Gamepad</translation>
+        </message>
+        <message>
+            <source>scoring bands for the keyboard</source>
+            <translation type="unfinished">Einstufung für die Tastatur</translation>
+        </message>
+        <message>
+            <source>scoring bands for {hand}</source>
+            <translation type="unfinished">Einstufung für {hand}</translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -13183,6 +13467,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Broken</source>
             <translation type="unfinished">Defekt</translation>
+        </message>
+        <message>
+            <source>Before the start</source>
+            <translation type="unfinished">Vor dem Beginn</translation>
         </message>
         <message>
             <source>No attempt</source>
@@ -18982,6 +19270,226 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{text!r} is no date: write {day}, or two days with a dash</source>
             <translation type="unfinished">{text!r} ist kein Datum: Schreiben Sie {day}, oder zwei Tage mit Strich dazwischen</translation>
+        </message>
+        <message>
+            <source>{tissue} {length:.1f} mm</source>
+            <translation type="unfinished">{tissue} {length:.1f} mm</translation>
+        </message>
+        <message>
+            <source>points</source>
+            <translation type="unfinished">Punkte</translation>
+        </message>
+        <message>
+            <source>times</source>
+            <translation type="unfinished">Mal</translation>
+        </message>
+        <message>
+            <source>&amp;Look in:</source>
+            <translation type="unfinished">&amp;Suchen in:</translation>
+        </message>
+        <message>
+            <source>Files of &amp;type:</source>
+            <translation type="unfinished">Dateien des &amp;Typs:</translation>
+        </message>
+        <message>
+            <source>No such file or directory</source>
+            <translation type="unfinished">Datei oder Ordner nicht gefunden</translation>
+        </message>
+        <message>
+            <source>Permission denied</source>
+            <translation type="unfinished">keine Berechtigung</translation>
+        </message>
+        <message>
+            <source>Operation not permitted</source>
+            <translation type="unfinished">das ist nicht erlaubt</translation>
+        </message>
+        <message>
+            <source>File exists</source>
+            <translation type="unfinished">das gibt es schon</translation>
+        </message>
+        <message>
+            <source>Not a directory</source>
+            <translation type="unfinished">das ist kein Ordner</translation>
+        </message>
+        <message>
+            <source>Is a directory</source>
+            <translation type="unfinished">das ist ein Ordner</translation>
+        </message>
+        <message>
+            <source>Directory not empty</source>
+            <translation type="unfinished">der Ordner ist nicht leer</translation>
+        </message>
+        <message>
+            <source>No space left on device</source>
+            <translation type="unfinished">auf dem Datenträger ist kein Platz mehr</translation>
+        </message>
+        <message>
+            <source>Read-only file system</source>
+            <translation type="unfinished">dort darf nur gelesen werden</translation>
+        </message>
+        <message>
+            <source>File too large</source>
+            <translation type="unfinished">die Datei ist zu groß</translation>
+        </message>
+        <message>
+            <source>Input/output error</source>
+            <translation type="unfinished">Fehler beim Lesen oder Schreiben</translation>
+        </message>
+        <message>
+            <source>File name too long</source>
+            <translation type="unfinished">der Dateiname ist zu lang</translation>
+        </message>
+        <message>
+            <source>Too many open files</source>
+            <translation type="unfinished">zu viele Dateien sind offen</translation>
+        </message>
+        <message>
+            <source>Invalid argument</source>
+            <translation type="unfinished">ungültige Angabe</translation>
+        </message>
+        <message>
+            <source>Device or resource busy</source>
+            <translation type="unfinished">das Gerät ist belegt</translation>
+        </message>
+        <message>
+            <source>No such device</source>
+            <translation type="unfinished">das Gerät gibt es nicht</translation>
+        </message>
+        <message>
+            <source>No such device or address</source>
+            <translation type="unfinished">das Gerät oder die Adresse gibt es nicht</translation>
+        </message>
+        <message>
+            <source>Cannot allocate memory</source>
+            <translation type="unfinished">der Arbeitsspeicher reicht nicht</translation>
+        </message>
+        <message>
+            <source>Broken pipe</source>
+            <translation type="unfinished">die Verbindung ist abgebrochen</translation>
+        </message>
+        <message>
+            <source>Exec format error</source>
+            <translation type="unfinished">diese Datei ist kein Programm</translation>
+        </message>
+        <message>
+            <source>Address already in use</source>
+            <translation type="unfinished">die Adresse wird schon benutzt</translation>
+        </message>
+        <message>
+            <source>Cannot assign requested address</source>
+            <translation type="unfinished">diese Adresse hat der Computer nicht</translation>
+        </message>
+        <message>
+            <source>Connection refused</source>
+            <translation type="unfinished">die Verbindung wurde abgelehnt</translation>
+        </message>
+        <message>
+            <source>Connection reset by peer</source>
+            <translation type="unfinished">die Gegenseite hat die Verbindung getrennt</translation>
+        </message>
+        <message>
+            <source>Connection timed out</source>
+            <translation type="unfinished">keine Antwort innerhalb der Frist</translation>
+        </message>
+        <message>
+            <source>No route to host</source>
+            <translation type="unfinished">kein Weg führt dorthin</translation>
+        </message>
+        <message>
+            <source>Network is unreachable</source>
+            <translation type="unfinished">das Netz ist nicht erreichbar</translation>
+        </message>
+        <message>
+            <source>Name or service not known</source>
+            <translation type="unfinished">dieser Name ist im Netz nicht bekannt</translation>
+        </message>
+        <message>
+            <source>{file}: {why}</source>
+            <translation type="unfinished">{file}: {why}</translation>
+        </message>
+        <message>
+            <source>Extra inputs are not permitted</source>
+            <translation type="unfinished">dieses Feld gibt es nicht</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer</source>
+            <translation type="unfinished">hier muss eine ganze Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, unable to parse string as an integer</source>
+            <translation type="unfinished">hier muss eine ganze Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, got a number with a fractional part</source>
+            <translation type="unfinished">hier muss eine ganze Zahl stehen, ohne Nachkommastellen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number</source>
+            <translation type="unfinished">hier muss eine Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number, unable to parse string as a number</source>
+            <translation type="unfinished">hier muss eine Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a finite number</source>
+            <translation type="unfinished">hier muss eine endliche Zahl stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid string</source>
+            <translation type="unfinished">hier muss ein Text stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean</source>
+            <translation type="unfinished">hier muss „true“ oder „false“ stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean, unable to interpret input</source>
+            <translation type="unfinished">hier muss „true“ oder „false“ stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid list</source>
+            <translation type="unfinished">hier muss eine Liste stehen</translation>
+        </message>
+        <message>
+            <source>Input should be a valid tuple</source>
+            <translation type="unfinished">hier muss eine Liste stehen</translation>
+        </message>
+        <message>
+            <source>Input should be greater than or equal to {limit:g}</source>
+            <translation type="unfinished">der Wert muss mindestens {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>Input should be less than or equal to {limit:g}</source>
+            <translation type="unfinished">der Wert darf höchstens {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>Input should be greater than {limit:g}</source>
+            <translation type="unfinished">der Wert muss größer als {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>Input should be less than {limit:g}</source>
+            <translation type="unfinished">der Wert muss kleiner als {limit:g} sein</translation>
+        </message>
+        <message>
+            <source>String should match pattern '{pattern}'</source>
+            <translation type="unfinished">der Text muss dem Muster '{pattern}' entsprechen</translation>
+        </message>
+        <message>
+            <source>Input should be {last}</source>
+            <translation type="unfinished">hier muss {last} stehen</translation>
+        </message>
+        <message>
+            <source>Input should be {names} or {last}</source>
+            <translation type="unfinished">hier muss {names} oder {last} stehen</translation>
+        </message>
+        <message>
+            <source>{kind} should have at least {items} items after validation, not {n}</source>
+            <translation type="unfinished">die Liste ({kind}) muss mindestens {items} Einträge haben, nicht {n}</translation>
+        </message>
+        <message>
+            <source>{kind} should have at most {items} items after validation, not {n}</source>
+            <translation type="unfinished">die Liste ({kind}) darf höchstens {items} Einträge haben, nicht {n}</translation>
         </message>
     </context>
 </TS>

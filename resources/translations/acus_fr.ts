@@ -1140,6 +1140,10 @@
             <translation type="unfinished">{total:.0f} %</translation>
         </message>
         <message>
+            <source>{first} then {later}</source>
+            <translation type="unfinished">{first}, puis {later}</translation>
+        </message>
+        <message>
             <source>no student's attempt: {hands}</source>
             <translation type="unfinished">aucun essai d’étudiant : {hands}</translation>
         </message>
@@ -1161,7 +1165,7 @@
         </message>
         <message>
             <source>scans</source>
-            <translation type="unfinished">contrôles</translation>
+            <translation type="unfinished">scans</translation>
         </message>
         <message>
             <source>file</source>
@@ -1280,8 +1284,16 @@
             <translation type="unfinished">compilation de la boucle de commande</translation>
         </message>
         <message>
+            <source>compiling the loop: {waited:.0f} s</source>
+            <translation type="unfinished">compilation de la boucle : {waited:.0f} s</translation>
+        </message>
+        <message>
             <source>starting robot and cameras</source>
             <translation type="unfinished">démarrage du robot et des caméras</translation>
+        </message>
+        <message>
+            <source>starting robot and cameras: {waited:.0f} s</source>
+            <translation type="unfinished">démarrage du robot et des caméras : {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -1484,8 +1496,40 @@
             <translation type="unfinished">{origin} n’est pas du YAML valide : {line}</translation>
         </message>
         <message>
+            <source>required and missing: {names}</source>
+            <translation type="unfinished">requis et absent : {names}</translation>
+        </message>
+        <message>
+            <source>and {n} more like these</source>
+            <translation type="unfinished">et {n} autres du même genre</translation>
+        </message>
+        <message>
             <source>{origin}: {faults}</source>
             <translation type="unfinished">{origin} : {faults}</translation>
+        </message>
+        <message>
+            <source>required and missing</source>
+            <translation type="unfinished">requis et absent</translation>
+        </message>
+        <message>
+            <source>should be names with values, each as `name: value`</source>
+            <translation type="unfinished">il faut des noms avec des valeurs, chacun comme `name: value`</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a mapping of {n}</source>
+            <translation type="unfinished">{wrong} ; donné : {n} noms avec des valeurs</translation>
+        </message>
+        <message>
+            <source>{wrong}, got a list of {n}</source>
+            <translation type="unfinished">{wrong} ; donné : une liste de {n} éléments</translation>
+        </message>
+        <message>
+            <source>{wrong}, got {entry}</source>
+            <translation type="unfinished">{wrong} ; donné : {entry}</translation>
+        </message>
+        <message>
+            <source>{wrong}; valid names: {names}</source>
+            <translation type="unfinished">{wrong} ; noms valables : {names}</translation>
         </message>
         <message>
             <source>{package} is not installed; install the extra `{extra}`: {install_command}</source>
@@ -2408,6 +2452,10 @@
             <translation type="unfinished">{effect} est nécessaire et absent : {reason} ; ajoutez-le, ou dites pourquoi non : without: {{{effect}: "…"}}</translation>
         </message>
         <message>
+            <source>{tissue} at {depth_mm:.0f} mm</source>
+            <translation type="unfinished">{tissue} à {depth_mm:.0f} mm</translation>
+        </message>
+        <message>
             <source>exercise {exercise_id}: without: {stranger} is not called for: nothing within reach needs it ({reasons}); take it out</source>
             <translation type="unfinished">exercice {exercise_id} : without: {stranger} n’est pas nécessaire : rien à portée ne le demande ({reasons}) ; enlevez-le</translation>
         </message>
@@ -2638,6 +2686,10 @@
         <message>
             <source>exercise {exercise_id} cannot be written as YAML: it reads back otherwise</source>
             <translation type="unfinished">l’exercice {exercise_id} ne peut pas être écrit en YAML : relu, il est différent</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {why}; nothing was changed</source>
+            <translation type="unfinished">impossible d’écrire {path} : {why} ; rien n’a été changé</translation>
         </message>
         <message>
             <source>id: {exercise_id!r} is an exercise that comes with Acus and stays as it is: save yours under another id (duplicate it)</source>
@@ -4752,12 +4804,20 @@
             <translation type="unfinished">hors de portée : {reasons}. Remède : {remedy}</translation>
         </message>
         <message>
+            <source>horizontal</source>
+            <translation type="unfinished">à l’horizontale</translation>
+        </message>
+        <message>
             <source>upward (tilt {tilt:.1f}° of 180°)</source>
             <translation type="unfinished">vers le haut (inclinaison {tilt:.1f}° sur 180°)</translation>
         </message>
         <message>
             <source>the path runs {way}; the needle enters from above, at most {limit:g}° from vertical</source>
             <translation type="unfinished">la trajectoire va {way} ; l’aiguille entre par le haut, à {limit:g}° au plus de la verticale</translation>
+        </message>
+        <message>
+            <source>tilt {tilt:.1f}° exceeds {limit:g}°</source>
+            <translation type="unfinished">l’inclinaison de {tilt:.1f}° dépasse {limit:g}°</translation>
         </message>
         <message>
             <source>tool point ({x:.1f}, {y:.1f}) mm lies outside the robot's workspace</source>
@@ -6386,6 +6446,14 @@
         <message>
             <source>a recovery key has eight groups of four letters and digits: type it again</source>
             <translation type="unfinished">une clé de récupération a huit groupes de quatre lettres et chiffres : saisissez-la de nouveau</translation>
+        </message>
+        <message>
+            <source>fits several sessions</source>
+            <translation type="unfinished">correspond à plusieurs séances</translation>
+        </message>
+        <message>
+            <source>is no session</source>
+            <translation type="unfinished">n’est pas une séance</translation>
         </message>
         <message>
             <source>{session_id!r} {trouble} in {folder}: `acus session list` says which there are</source>
@@ -8624,6 +8692,10 @@
             <translation type="unfinished">Un os barre le passage à {depth:.0f} mm, avant la cible à {length:.0f} mm : aucune aiguille ne l’atteint. Choisissez un autre point d’entrée.</translation>
         </message>
         <message>
+            <source>cannot write in {folder}: {why}</source>
+            <translation type="unfinished">impossible d’écrire dans {folder} : {why}</translation>
+        </message>
+        <message>
             <source>Exercise</source>
             <translation type="unfinished">Exercice</translation>
         </message>
@@ -9413,6 +9485,10 @@ part</translation>
         <message>
             <source>✔ The exercise can be used.</source>
             <translation type="unfinished">✔ L’exercice est utilisable.</translation>
+        </message>
+        <message>
+            <source>the board cannot be written to {path}: {why}</source>
+            <translation type="unfinished">la mire ne peut pas être écrite dans {path} : {why}</translation>
         </message>
         <message>
             <source>Calibration board {spec}</source>
@@ -10593,12 +10669,200 @@ part</translation>
             <translation type="unfinished">poumon</translation>
         </message>
         <message>
+            <source>air</source>
+            <translation type="unfinished">air</translation>
+        </message>
+        <message>
+            <source>fat</source>
+            <translation type="unfinished">graisse</translation>
+        </message>
+        <message>
+            <source>muscle</source>
+            <translation type="unfinished">muscle</translation>
+        </message>
+        <message>
             <source>gut</source>
             <translation type="unfinished">intestin</translation>
         </message>
         <message>
             <source>heart</source>
             <translation type="unfinished">cœur</translation>
+        </message>
+        <message>
+            <source>diaphragm</source>
+            <translation type="unfinished">diaphragme</translation>
+        </message>
+        <message>
+            <source>cartilage</source>
+            <translation type="unfinished">cartilage</translation>
+        </message>
+        <message>
+            <source>disc</source>
+            <translation type="unfinished">disque</translation>
+        </message>
+        <message>
+            <source>liver</source>
+            <translation type="unfinished">foie</translation>
+        </message>
+        <message>
+            <source>gallbladder</source>
+            <translation type="unfinished">vésicule biliaire</translation>
+        </message>
+        <message>
+            <source>pancreas</source>
+            <translation type="unfinished">pancréas</translation>
+        </message>
+        <message>
+            <source>spleen</source>
+            <translation type="unfinished">rate</translation>
+        </message>
+        <message>
+            <source>kidney</source>
+            <translation type="unfinished">rein</translation>
+        </message>
+        <message>
+            <source>adrenal</source>
+            <translation type="unfinished">surrénale</translation>
+        </message>
+        <message>
+            <source>bladder</source>
+            <translation type="unfinished">vessie</translation>
+        </message>
+        <message>
+            <source>prostate</source>
+            <translation type="unfinished">prostate</translation>
+        </message>
+        <message>
+            <source>uterus</source>
+            <translation type="unfinished">utérus</translation>
+        </message>
+        <message>
+            <source>thyroid</source>
+            <translation type="unfinished">thyroïde</translation>
+        </message>
+        <message>
+            <source>brain</source>
+            <translation type="unfinished">cerveau</translation>
+        </message>
+        <message>
+            <source>lesion</source>
+            <translation type="unfinished">lésion</translation>
+        </message>
+        <message>
+            <source>nodule</source>
+            <translation type="unfinished">nodule</translation>
+        </message>
+        <message>
+            <source>lung nodule</source>
+            <translation type="unfinished">nodule pulmonaire</translation>
+        </message>
+        <message>
+            <source>tumour</source>
+            <translation type="unfinished">tumeur</translation>
+        </message>
+        <message>
+            <source>cyst</source>
+            <translation type="unfinished">kyste</translation>
+        </message>
+        <message>
+            <source>spinal canal</source>
+            <translation type="unfinished">canal rachidien</translation>
+        </message>
+        <message>
+            <source>gas</source>
+            <translation type="unfinished">gaz</translation>
+        </message>
+        <message>
+            <source>stomach</source>
+            <translation type="unfinished">estomac</translation>
+        </message>
+        <message>
+            <source>small bowel</source>
+            <translation type="unfinished">intestin grêle</translation>
+        </message>
+        <message>
+            <source>colon</source>
+            <translation type="unfinished">côlon</translation>
+        </message>
+        <message>
+            <source>duodenum</source>
+            <translation type="unfinished">duodénum</translation>
+        </message>
+        <message>
+            <source>trachea</source>
+            <translation type="unfinished">trachée</translation>
+        </message>
+        <message>
+            <source>bronchus</source>
+            <translation type="unfinished">bronche</translation>
+        </message>
+        <message>
+            <source>oesophagus</source>
+            <translation type="unfinished">œsophage</translation>
+        </message>
+        <message>
+            <source>small vessel</source>
+            <translation type="unfinished">petit vaisseau</translation>
+        </message>
+        <message>
+            <source>lung vessel</source>
+            <translation type="unfinished">vaisseau pulmonaire</translation>
+        </message>
+        <message>
+            <source>artery</source>
+            <translation type="unfinished">artère</translation>
+        </message>
+        <message>
+            <source>vein</source>
+            <translation type="unfinished">veine</translation>
+        </message>
+        <message>
+            <source>aorta</source>
+            <translation type="unfinished">aorte</translation>
+        </message>
+        <message>
+            <source>vena cava</source>
+            <translation type="unfinished">veine cave</translation>
+        </message>
+        <message>
+            <source>portal vein</source>
+            <translation type="unfinished">veine porte</translation>
+        </message>
+        <message>
+            <source>hepatic vein</source>
+            <translation type="unfinished">veine hépatique</translation>
+        </message>
+        <message>
+            <source>contrast</source>
+            <translation type="unfinished">produit de contraste</translation>
+        </message>
+        <message>
+            <source>bone or contrast</source>
+            <translation type="unfinished">os ou produit de contraste</translation>
+        </message>
+        <message>
+            <source>rib</source>
+            <translation type="unfinished">côte</translation>
+        </message>
+        <message>
+            <source>vertebra</source>
+            <translation type="unfinished">vertèbre</translation>
+        </message>
+        <message>
+            <source>sternum</source>
+            <translation type="unfinished">sternum</translation>
+        </message>
+        <message>
+            <source>scapula</source>
+            <translation type="unfinished">omoplate</translation>
+        </message>
+        <message>
+            <source>spine</source>
+            <translation type="unfinished">colonne vertébrale</translation>
+        </message>
+        <message>
+            <source>pelvis</source>
+            <translation type="unfinished">bassin</translation>
         </message>
         <message>
             <source>organ</source>
@@ -11141,10 +11405,6 @@ Lettres : directions du patient
             <translation type="unfinished">assistance {dial}</translation>
         </message>
         <message>
-            <source>bands: {bands}</source>
-            <translation type="unfinished">plages : {bands}</translation>
-        </message>
-        <message>
             <source>▲ model changed meanwhile: {models}</source>
             <translation type="unfinished">▲ modèle changé entre-temps : {models}</translation>
         </message>
@@ -11167,18 +11427,6 @@ Lettres : directions du patient
         <message>
             <source>Software</source>
             <translation type="unfinished">Logiciel</translation>
-        </message>
-        <message>
-            <source>from scripts, not people</source>
-            <translation type="unfinished">d’après des scripts, pas des personnes</translation>
-        </message>
-        <message>
-            <source>from people's attempts</source>
-            <translation type="unfinished">d’après des essais de personnes</translation>
-        </message>
-        <message>
-            <source>as the exercise's author set them</source>
-            <translation type="unfinished">telles que l’auteur de l’exercice les a fixées</translation>
         </message>
         <message>
             <source>{start} as set, throughout</source>
@@ -11405,6 +11653,10 @@ Lettres : directions du patient
             <translation type="unfinished">Le reste a coûté {points}.</translation>
         </message>
         <message>
+            <source>Your plan itself: {points} of 100.</source>
+            <translation type="unfinished">Votre plan, pris seul : {points} sur 100.</translation>
+        </message>
+        <message>
             <source>{size} too deep</source>
             <translation type="unfinished">{size} trop profond</translation>
         </message>
@@ -11458,6 +11710,38 @@ Lettres : directions du patient
                 <numerusform>{n} point</numerusform>
                 <numerusform>{n} points</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>set from scripted runs, not from people</source>
+            <translation type="unfinished">fixés d’après des scripts, pas d’après des personnes</translation>
+        </message>
+        <message>
+            <source>set from people's attempts</source>
+            <translation type="unfinished">fixés d’après des essais de personnes</translation>
+        </message>
+        <message>
+            <source>set by the exercise's author</source>
+            <translation type="unfinished">fixés par l’auteur de l’exercice</translation>
+        </message>
+        <message>
+            <source>scoring bands for the mouse</source>
+            <translation type="unfinished">paliers de note pour la souris</translation>
+        </message>
+        <message>
+            <source>scoring bands for the tablet</source>
+            <translation type="unfinished">paliers de note pour la tablette</translation>
+        </message>
+        <message>
+            <source>scoring bands for the gamepad</source>
+            <translation type="unfinished">paliers de note pour la manette</translation>
+        </message>
+        <message>
+            <source>scoring bands for the keyboard</source>
+            <translation type="unfinished">paliers de note pour le clavier</translation>
+        </message>
+        <message>
+            <source>scoring bands for {hand}</source>
+            <translation type="unfinished">paliers de note pour {hand}</translation>
         </message>
         <message>
             <source> {metric} cost most: {points}.</source>
@@ -13022,7 +13306,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>unknown</source>
-            <translation type="unfinished">inconnue</translation>
+            <translation type="unfinished">inconnu</translation>
         </message>
         <message>
             <source>The depth is measured by the cameras; by one of them and the needle's line, less exactly, while the other does not see the marker. Without a fix it is held for 200 ms. After that, and until ten pictures in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have. Wait until the cameras see the marker again.</source>
@@ -13183,6 +13467,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Broken</source>
             <translation type="unfinished">Endommagé</translation>
+        </message>
+        <message>
+            <source>Before the start</source>
+            <translation type="unfinished">Avant le début</translation>
         </message>
         <message>
             <source>No attempt</source>
@@ -18982,6 +19270,226 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{text!r} is no date: write {day}, or two days with a dash</source>
             <translation type="unfinished">{text!r} n’est pas une date : écrivez {day}, ou deux jours séparés par un tiret</translation>
+        </message>
+        <message>
+            <source>{tissue} {length:.1f} mm</source>
+            <translation type="unfinished">{tissue} {length:.1f} mm</translation>
+        </message>
+        <message>
+            <source>points</source>
+            <translation type="unfinished">points</translation>
+        </message>
+        <message>
+            <source>times</source>
+            <translation type="unfinished">fois</translation>
+        </message>
+        <message>
+            <source>&amp;Look in:</source>
+            <translation type="unfinished">&amp;Rechercher dans :</translation>
+        </message>
+        <message>
+            <source>Files of &amp;type:</source>
+            <translation type="unfinished">Fichiers de &amp;type :</translation>
+        </message>
+        <message>
+            <source>No such file or directory</source>
+            <translation type="unfinished">fichier ou dossier introuvable</translation>
+        </message>
+        <message>
+            <source>Permission denied</source>
+            <translation type="unfinished">permission refusée</translation>
+        </message>
+        <message>
+            <source>Operation not permitted</source>
+            <translation type="unfinished">opération non permise</translation>
+        </message>
+        <message>
+            <source>File exists</source>
+            <translation type="unfinished">le fichier existe déjà</translation>
+        </message>
+        <message>
+            <source>Not a directory</source>
+            <translation type="unfinished">ce n’est pas un dossier</translation>
+        </message>
+        <message>
+            <source>Is a directory</source>
+            <translation type="unfinished">c’est un dossier</translation>
+        </message>
+        <message>
+            <source>Directory not empty</source>
+            <translation type="unfinished">le dossier n’est pas vide</translation>
+        </message>
+        <message>
+            <source>No space left on device</source>
+            <translation type="unfinished">il n’y a plus de place sur le disque</translation>
+        </message>
+        <message>
+            <source>Read-only file system</source>
+            <translation type="unfinished">ce disque est en lecture seule</translation>
+        </message>
+        <message>
+            <source>File too large</source>
+            <translation type="unfinished">le fichier est trop grand</translation>
+        </message>
+        <message>
+            <source>Input/output error</source>
+            <translation type="unfinished">erreur d’entrée-sortie</translation>
+        </message>
+        <message>
+            <source>File name too long</source>
+            <translation type="unfinished">le nom du fichier est trop long</translation>
+        </message>
+        <message>
+            <source>Too many open files</source>
+            <translation type="unfinished">trop de fichiers sont ouverts</translation>
+        </message>
+        <message>
+            <source>Invalid argument</source>
+            <translation type="unfinished">argument non valable</translation>
+        </message>
+        <message>
+            <source>Device or resource busy</source>
+            <translation type="unfinished">l’appareil est occupé</translation>
+        </message>
+        <message>
+            <source>No such device</source>
+            <translation type="unfinished">cet appareil n’existe pas</translation>
+        </message>
+        <message>
+            <source>No such device or address</source>
+            <translation type="unfinished">cet appareil ou cette adresse n’existe pas</translation>
+        </message>
+        <message>
+            <source>Cannot allocate memory</source>
+            <translation type="unfinished">la mémoire ne suffit pas</translation>
+        </message>
+        <message>
+            <source>Broken pipe</source>
+            <translation type="unfinished">la liaison est rompue</translation>
+        </message>
+        <message>
+            <source>Exec format error</source>
+            <translation type="unfinished">ce fichier n’est pas un programme</translation>
+        </message>
+        <message>
+            <source>Address already in use</source>
+            <translation type="unfinished">l’adresse est déjà utilisée</translation>
+        </message>
+        <message>
+            <source>Cannot assign requested address</source>
+            <translation type="unfinished">cet ordinateur n’a pas cette adresse</translation>
+        </message>
+        <message>
+            <source>Connection refused</source>
+            <translation type="unfinished">la connexion a été refusée</translation>
+        </message>
+        <message>
+            <source>Connection reset by peer</source>
+            <translation type="unfinished">la connexion a été coupée par l’autre côté</translation>
+        </message>
+        <message>
+            <source>Connection timed out</source>
+            <translation type="unfinished">pas de réponse dans le délai</translation>
+        </message>
+        <message>
+            <source>No route to host</source>
+            <translation type="unfinished">aucune route n’y mène</translation>
+        </message>
+        <message>
+            <source>Network is unreachable</source>
+            <translation type="unfinished">le réseau est inaccessible</translation>
+        </message>
+        <message>
+            <source>Name or service not known</source>
+            <translation type="unfinished">ce nom est inconnu sur le réseau</translation>
+        </message>
+        <message>
+            <source>{file}: {why}</source>
+            <translation type="unfinished">{file} : {why}</translation>
+        </message>
+        <message>
+            <source>Extra inputs are not permitted</source>
+            <translation type="unfinished">ce champ n’existe pas</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer</source>
+            <translation type="unfinished">il faut un nombre entier</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, unable to parse string as an integer</source>
+            <translation type="unfinished">il faut un nombre entier</translation>
+        </message>
+        <message>
+            <source>Input should be a valid integer, got a number with a fractional part</source>
+            <translation type="unfinished">il faut un nombre entier, sans décimales</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number</source>
+            <translation type="unfinished">il faut un nombre</translation>
+        </message>
+        <message>
+            <source>Input should be a valid number, unable to parse string as a number</source>
+            <translation type="unfinished">il faut un nombre</translation>
+        </message>
+        <message>
+            <source>Input should be a finite number</source>
+            <translation type="unfinished">il faut un nombre fini</translation>
+        </message>
+        <message>
+            <source>Input should be a valid string</source>
+            <translation type="unfinished">il faut un texte</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean</source>
+            <translation type="unfinished">il faut « true » ou « false »</translation>
+        </message>
+        <message>
+            <source>Input should be a valid boolean, unable to interpret input</source>
+            <translation type="unfinished">il faut « true » ou « false »</translation>
+        </message>
+        <message>
+            <source>Input should be a valid list</source>
+            <translation type="unfinished">il faut une liste</translation>
+        </message>
+        <message>
+            <source>Input should be a valid tuple</source>
+            <translation type="unfinished">il faut une liste</translation>
+        </message>
+        <message>
+            <source>Input should be greater than or equal to {limit:g}</source>
+            <translation type="unfinished">la valeur doit être au moins {limit:g}</translation>
+        </message>
+        <message>
+            <source>Input should be less than or equal to {limit:g}</source>
+            <translation type="unfinished">la valeur doit être au plus {limit:g}</translation>
+        </message>
+        <message>
+            <source>Input should be greater than {limit:g}</source>
+            <translation type="unfinished">la valeur doit dépasser {limit:g}</translation>
+        </message>
+        <message>
+            <source>Input should be less than {limit:g}</source>
+            <translation type="unfinished">la valeur doit être inférieure à {limit:g}</translation>
+        </message>
+        <message>
+            <source>String should match pattern '{pattern}'</source>
+            <translation type="unfinished">le texte doit suivre le modèle '{pattern}'</translation>
+        </message>
+        <message>
+            <source>Input should be {last}</source>
+            <translation type="unfinished">il faut {last}</translation>
+        </message>
+        <message>
+            <source>Input should be {names} or {last}</source>
+            <translation type="unfinished">il faut {names} ou {last}</translation>
+        </message>
+        <message>
+            <source>{kind} should have at least {items} items after validation, not {n}</source>
+            <translation type="unfinished">la liste ({kind}) doit avoir au moins {items} éléments, pas {n}</translation>
+        </message>
+        <message>
+            <source>{kind} should have at most {items} items after validation, not {n}</source>
+            <translation type="unfinished">la liste ({kind}) doit avoir au plus {items} éléments, pas {n}</translation>
         </message>
     </context>
 </TS>

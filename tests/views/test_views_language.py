@@ -10,6 +10,7 @@ from app.exercises.library import load_exercise
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit import language
+from app.views.kit.roles import Role
 from app.views.shell.language import Rebuilding, fill_language_menu
 from app.views.shell.window import MainWindow
 
@@ -162,3 +163,25 @@ def test_choosing_what_is_chosen_does_nothing(rebuilding):
     rebuilding.change("")
     assert rebuilding.window is window
     assert QApplication.instance().quitOnLastWindowClosed()
+
+
+def test_choosing_by_name_what_the_computer_has_is_remembered_and_builds_nothing(rebuilding):
+    window = rebuilding.window
+    rebuilding.change(language.code_for(""))
+    assert rebuilding.window is window
+    assert language.chosen(window.settings) == language.code_for("")
+    rebuilding.change("")
+    assert rebuilding.window is window
+    assert language.chosen(window.settings) == ""
+
+
+@pytest.mark.parametrize("role", Role)
+def test_everybody_chooses_the_language_in_the_menu_of_views(rebuilding, role, settle):
+    for choice in ("de", "en"):  # in the first window, and in the one that takes its place
+        window = rebuilding.window
+        for one in (*Role, role):
+            window.roles.choose(one)
+        titles = [action.text() for action in window.view_menu._menu.actions()]
+        assert titles.count("Language") == 1
+        rebuilding.change(choice)
+        settle(lambda window=window: not isValid(window))

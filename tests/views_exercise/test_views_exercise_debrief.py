@@ -1,5 +1,6 @@
 import re
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType, SimpleNamespace
 
@@ -13,6 +14,7 @@ from views_exercise_attempts import placed_plan, review, score
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.exercises.drill import DrillKind, DrillPart
+from app.planning.judged import JudgedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.result import judge
@@ -26,7 +28,7 @@ from app.session.review import Correction, Span, TimeMark, marks, only_measured,
 from app.session.review import review as review_of
 from app.session.samples import Samples
 from app.views.debrief.card import costs, drill_title
-from app.views.debrief.curves import CurvesView, curves_of, peaks, value_range
+from app.views.debrief.curves import CurvesView, PhaseName, curves_of, peaks, time_end, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
 from app.views.debrief.score_words import (
@@ -704,3 +706,47 @@ def test_a_limit_that_was_kept_by_far_is_not_said_to_be_uncertain():
     broken = replace(kept, value=1.5)
     texts = [row_texts(row, score()).value for row in (kept, near, broken)]
     assert texts == ["0.00 mm", "19.9 ± 2.48 mm", "1.50 ± 2.48 mm"]
+
+
+def test_what_is_before_an_attempt_is_not_called_withdrawing(qt):
+    view = CurvesView()
+    view.show_review(review(spans=(Span("withdrawing", 0.0, 1.5), Span("inserting", 1.5, 3.0))))
+    assert "Before the start" in view.read_out(0.5)
+    assert "Withdrawing" not in view.read_out(0.5)
+    assert "Inserting" in view.read_out(2.0)
+
+
+@pytest.mark.parametrize("width", [300, 420, 900])
+def test_names_of_phases_stand_within_their_phases_and_never_on_each_other(qt, width):
+    states = ("withdrawing", "aligning", "inserting", "holding")
+    view = CurvesView()
+    view.resize(width, 500)
+    view.show()
+    end = time_end(review().curves.time)
+    ends = [share * end for share in (0.0, 0.15, 0.2, 0.9, 1.0)]
+    view.show_review(review(spans=tuple(map(Span, states, ends[:-1], ends[1:]))))
+    for _ in range(30):
+        QApplication.processEvents()
+    names = [item for item in view._plots[0].items if isinstance(item, PhaseName)]
+    assert len(names) == len(states)
+    boxes = sorted(
+        (box.left(), box.right())
+        for name in names
+        if name.isVisible()
+        for box in [name.mapRectToScene(name.boundingRect())]
+    )
+    assert boxes
+    assert all(left[1] <= right[0] + 1.0 for left, right in pairwise(boxes))
+    view.hide()
+
+
+def test_a_void_attempt_tells_what_the_students_plan_is_worth(page):
+    plan = JudgedPlan(64.0, 88.0, 21.0, 4.5, nearest="hepatic vein", nearest_mm=61.0)
+    page.show_review(review(score=score(void=True), planned=plan))
+    words = page.card.words
+    assert "Your plan itself: 64 of 100." in words
+    assert "4.5 mm of hepatic vein" in words
+    page.show_review(review(score=score(), planned=plan))
+    assert "Your plan itself" not in page.card.words
+    page.show_review(review(score=score(void=True)))
+    assert "Your plan itself" not in page.card.words

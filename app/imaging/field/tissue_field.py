@@ -34,6 +34,7 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray, frozen
 from app.core.messages import sentence
 from app.imaging.field.errors import FieldError
+from app.imaging.field.tissue_words import tissue_words
 
 STEPS_PER_MM: Final = 40.0
 """Distances are stored in steps of 1/40 mm."""
@@ -89,7 +90,7 @@ class FieldTissue:
     @property
     def words(self) -> str:
         """Return it for people: the name, else the kind."""
-        return self.name or self.kind.value
+        return tissue_words(self.name or self.kind.value)
 
 
 NOBODYS: Final = FieldTissue(UNKNOWN, TissueKind.UNKNOWN, "", 0.0, "")

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import joined as joined_text
+from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueField, TissueKind
 
 STEP_MM: Final = 0.2
@@ -175,4 +177,10 @@ def words(field: TissueField, points_mm: ArrayLike, least_mm: float = 0.3) -> st
             lengths[-1] = (name, lengths[-1][1] + part.length_mm)
         else:
             lengths.append((name, part.length_mm))
-    return ", ".join(f"{name} {length:.1f} mm" for name, length in lengths)
+    return joined_text(
+        ", ",
+        (
+            sentence("{tissue} {length:.1f} mm", tissue=name, length=length)
+            for name, length in lengths
+        ),
+    )

@@ -13,6 +13,7 @@ from PySide6.QtCore import QObject, Signal
 from app.core import paths
 from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.exercises.schema import Exercise
 from app.exercises.writing import exercise_document, free_id, save, taken_ids
 from app.imaging.series import NO_REMEDY
@@ -387,6 +388,10 @@ def _written(identifier: str, structures: StructureSet, volume: Volume) -> Path:
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise AcusError(f"cannot write in {folder}: {error.strerror or error}") from error
+            raise AcusError(
+                sentence(
+                    "cannot write in {folder}: {why}", folder=folder, why=error.strerror or error
+                )
+            ) from error
         write_structures(path, structures, volume)
     return path

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.board_layout import EDGE_MM, RULER_MM, BoardSheet, Paper, lay_out
 from app.tracking.calibration.boards import Board, dark_rectangles
@@ -45,7 +46,11 @@ def write_board(path: Path, board: Board, paper: Paper) -> BoardSheet:
         write_atomically(path, board_bytes(board, sheet))
     except OSError as error:
         raise CalibrationError(
-            f"the board cannot be written to {path}: {error.strerror or error}"
+            sentence(
+                "the board cannot be written to {path}: {why}",
+                path=path,
+                why=error.strerror or error,
+            )
         ) from error
     del application
     return sheet

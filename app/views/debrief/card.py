@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QBoxLayout, QFrame, QVBoxLayout, QWidget
 from app.core.units import MILLIMETRE
 from app.exercises.drill import ROUNDS, DrillKind, asks
 from app.scoring.rows import Row
+from app.session.planned import plan_sentences
 from app.session.review import Review
 from app.views.debrief.score_words import (
     ending_words,
@@ -121,6 +122,19 @@ def rest_words(review: Review) -> str:
     if not named or rest < 1 or 100.0 - score.total - sum(named) < LEAST_REST:
         return ""
     return tr("The rest cost {points}.", points=points_words(rest))
+
+
+def plan_words(review: Review) -> tuple[tuple[str, str], ...]:
+    """Say what the student's plan is worth where the attempt has no points; texts with a style.
+
+    An attempt with points tells of the plan among what cost some.
+    """
+    plan, score = review.planned, review.score
+    if plan is None or (score is not None and score.total is not None):
+        return ()
+    head = tr("Your plan itself: {points} of 100.", points=f"{plan.points:.0f}")
+    lines = "\n".join(f"•  {translated(text)}" for text in plan_sentences(plan))
+    return (head, "font-weight: 600;"), (lines, "")
 
 
 def _size(row: Row) -> str:
@@ -275,6 +289,8 @@ class DebriefCard(QFrame):
                 self._add("\n".join(f"•  {text}" for text in cost.reasons), "")
         if rest := rest_words(review):
             self._add(rest, "")
+        for words, style in plan_words(review):
+            self._add(words, style)
 
     def _add(self, text: str, style: str) -> None:
         label = PlainLabel(text, self)

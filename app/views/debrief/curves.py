@@ -18,7 +18,7 @@ from app.session.review import Review
 from app.session.timeline import Span, TimeMark
 from app.views.debrief.path_view import FORCE_COLOUR
 from app.views.exercise.felt import origin_word
-from app.views.exercise.stages import state_word
+from app.views.exercise.stages import phase_word
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, number, tr
@@ -121,6 +121,9 @@ NEAREST_S: Final = 0.5
 _STRETCHES: Final = 1000
 """A long curve is drawn as the extremes of so many stretches: about one a pixel."""
 
+LAST_SHARE: Final = 0.65
+"""From this share of the time axis on the name of a level stands over it."""
+
 PHASE_SHADES: Final = {
     "ready": "#1b1f23",
     "withdrawing": "#1b1f23",
@@ -180,12 +183,14 @@ def peaks(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]
 def draw(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
     """Draw a curve, its level and the times of the events.
 
-    The level's name stands at the right, away from the curve's; in the middle, away from those of
-    the events, where `names` says that these are written.
+    The level's name stands at the right, away from the curve's; in the middle where the names of
+    events are written there, which `names` says.
     """
     if curve.line is not None:
         pen = pg.mkPen(theme.TARGET.colour, width=1.5, style=Qt.PenStyle.DashLine)
-        place = 0.72 if names else 0.99
+        end = time_end(review.curves.time)
+        named = names and any(mark.time > LAST_SHARE * end for mark in review.marks)
+        place = 0.72 if named else 0.99
         options = {"position": place, "color": theme.TARGET.colour, "anchors": [(1, 1), (1, 1)]}
         line = pg.InfiniteLine(
             curve.line, angle=0, pen=pen, label=curve.line_name, labelOpts=options
@@ -222,14 +227,36 @@ def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
     """Name the states below and the events above the first curve."""
     total = time_end(review.curves.time)
     for span in review.spans:
-        if span.end - span.start > 0.12 * total:  # a narrower one has no room for its name
-            text = pg.TextItem(state_word(span.state), color=theme.IMAGE_DIM, anchor=(0.5, 1))
-            text.setPos(0.5 * (span.start + span.end), low)
-            plot.addItem(text, ignoreBounds=True)
+        plot.addItem(PhaseName(span, low), ignoreBounds=True)
     for mark in review.marks:
         text = _mark_text(mark, mark.time / total)
         text.setPos(mark.time, high if mark.kind == "scan" else low)
         plot.addItem(text, ignoreBounds=True)
+
+
+class PhaseName(pg.TextItem):
+    """The name of a phase, in the middle of what is seen of it; hidden where it has no room.
+
+    Args:
+        span: of the phase.
+        low: where its lower edge stands, in the unit of the plot.
+    """
+
+    def __init__(self, span: Span, low: float) -> None:
+        super().__init__(phase_word(span.state), color=theme.IMAGE_DIM, anchor=(0.5, 1))
+        self._span, self._low = span, low
+
+    def viewTransformChanged(self) -> None:
+        """Find the middle of what is seen, and whether the name has room there."""
+        super().viewTransformChanged()
+        box = self.getViewBox()
+        if not isinstance(box, pg.ViewBox):  # not yet in its plot
+            return
+        first, last = box.viewRange()[0]
+        start, end = max(first, self._span.start), min(last, self._span.end)
+        wide = box.width() * (end - start) / max(last - first, 1e-12)
+        self.setVisible(wide >= self.boundingRect().width())
+        self.setPos(0.5 * (start + end), self._low)
 
 
 def _mark_text(mark: TimeMark, share: float) -> pg.TextItem:
@@ -453,5 +480,5 @@ class CurvesView(QWidget):
 def _state_at(spans: tuple[Span, ...], time: float) -> str:
     for span in spans:
         if span.start <= time <= span.end:
-            return state_word(span.state)
+            return phase_word(span.state)
     return ""

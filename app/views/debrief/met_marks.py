@@ -18,10 +18,11 @@ from PySide6.QtGui import QColor, QFontMetrics, QHelpEvent, QPainter, QPen
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from app.core.arrays import FloatArray
+from app.imaging.field.tissue_words import tissue_words
 from app.scoring.met import LEAST_MM, Met
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
-from app.views.kit.text import literal, tr, tr_n
+from app.views.kit.text import literal, tr, tr_n, translated
 from app.views.kit.theme import Mark, Symbol
 from app.views.scene.view import SceneView
 from app.views.slices.canvas import SliceCanvas
@@ -78,14 +79,7 @@ class MetPlace:
 
 def kind_word(kind: str) -> str:
     """Name of a kind of tissue for people."""
-    return {
-        "bone": tr("bone"),
-        "vessel": tr("vessel"),
-        "lung": tr("lung"),
-        "gut": tr("gut"),
-        "heart": tr("heart"),
-        "organ": tr("organ"),
-    }.get(kind, kind)
+    return translated(tissue_words(kind))
 
 
 def places_of(review: Review) -> tuple[MetPlace, ...]:
@@ -120,7 +114,7 @@ def _place(group: Sequence[Met], forbidden: Collection[str], origin: float) -> M
     fails = any(met.is_forbidden(forbidden) for met in group)
     forces = [met.force_n for met in group if met.force_n is not None]
     word = kind_word(longest.kind)
-    name = longest.name or word
+    name = translated(longest.words)
     lines = (
         f"{name} ({word})" if name != word else name,
         tr("✖ This fails the attempt.") if fails else "",

@@ -224,6 +224,9 @@ def _cell(text: str, column: int) -> QTableWidgetItem:
 _LEFT, _VIEWS = 440, 520
 """Width of what stands beside the views, and of the views [px]."""
 
+_NARROW: Final = 1100
+"""A page that is narrower gives it no more than its share [px]."""
+
 _SHARE: Final = 0.36
 """Of the page's width it takes no more, however large the text."""
 
@@ -682,7 +685,8 @@ class DebriefPage(QWidget):
     def _share_width(self) -> None:
         left = theme.px(_LEFT)
         if self.width() > 0:
-            left = min(left, max(_LEFT, round(_SHARE * self.width())))
+            least = _LEFT if self.width() >= _NARROW else 0
+            left = min(left, max(least, round(_SHARE * self.width())))
         self._splitter.setSizes([left, max(left, self.width() - left)])
 
     def _emit(self, signal: SignalInstance) -> None:

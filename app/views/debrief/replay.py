@@ -12,9 +12,10 @@ from time import monotonic
 from typing import Final
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent
 from PySide6.QtWidgets import (
+    QBoxLayout,
     QComboBox,
     QHBoxLayout,
     QPushButton,
@@ -238,6 +239,24 @@ class ReplayBar(QWidget):
         """Choose by what a ghost is aligned."""
         self.by.setCurrentIndex(self.by.findData(alignment.value))
 
+    def minimumSizeHint(self) -> QSize:
+        """Return what it takes with its choices below one another."""
+        parts = (self._lies, self._beside, self._first)
+        return QSize(max(part.minimumSize().width() for part in parts), self._low)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Set the choices below one another where they have no room side by side."""
+        super().resizeEvent(event)
+        beside = self._lies.minimumSize().width() + self._beside.minimumSize().width()
+        direction = QBoxLayout.Direction
+        has_room = beside + self._choices.spacing() <= self.width()
+        self._choices.setDirection(direction.LeftToRight if has_room else direction.TopToBottom)
+
+    @property
+    def _low(self) -> int:
+        """Return the height of its rows as they are now [px]."""
+        return super().minimumSizeHint().height()
+
     # --- inside -----------------------------------------------------------------------------------
     def _prepare(self) -> None:
         for speed in SPEEDS:
@@ -275,25 +294,26 @@ class ReplayBar(QWidget):
             widget.setAccessibleName(name)
 
     def _lay_out(self) -> None:
-        first, second = QHBoxLayout(), QHBoxLayout()
+        first, self._choices = QHBoxLayout(), QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._lies, self._beside = QHBoxLayout(), QHBoxLayout()
+        self._first = first
         for widget, stretch in ((self.play, 0), (self.slider, 1), (self.clock, 0), (self.speed, 0)):
             first.addWidget(widget, stretch)
         slices, ghost = PlainLabel(tr("Slices"), self), PlainLabel(tr("Beside it"), self)
         for label in (slices, ghost):
             label.setProperty("role", "dim")
-        for widget, stretch in (
-            (slices, 0),
-            (self.along, 0),
-            (ghost, 0),
-            (self.ghost, 1),
-            (self.by, 0),
-        ):
-            second.addWidget(widget, stretch)
+        self._choices.setSpacing(theme.SPACING // 2)
+        for row, parts in ((self._lies, (slices, self.along)),
+                           (self._beside, (ghost, self.ghost, self.by))):  # fmt: skip
+            for part in parts:
+                row.addWidget(part, int(part is self.ghost))
+            self._choices.addLayout(row, int(row is self._beside))
+        self._lies.addStretch()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 2, 0, 2)
         column.setSpacing(4)
         column.addLayout(first)
-        column.addLayout(second)
+        column.addLayout(self._choices)
 
     def _connect(self) -> None:
         replayer = self._replayer

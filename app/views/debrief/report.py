@@ -46,7 +46,7 @@ from app.views.debrief.score_words import (
 )
 from app.views.exercise.pad_canvas import PadArea
 from app.views.exercise.readouts import clock_text
-from app.views.exercise.stages import state_word
+from app.views.exercise.stages import phase_word, state_word
 from app.views.kit.access import ACCESS
 from app.views.kit.text import date_text, declared, disclaimer, number, tr, translated
 
@@ -166,10 +166,11 @@ def _paint_spans(
         left, right = _x(area, span.start, end), _x(area, span.end, end)
         box = QRectF(left, area.top(), right - left, area.height())
         painter.fillRect(box, QColor(_SHADES.get(span.state, "#ffffff")))
-        if labelled and box.width() > 45.0:
+        name = phase_word(span.state)
+        if labelled and painter.fontMetrics().horizontalAdvance(name) <= box.width():
             below = QRectF(left, area.bottom() + 11.0, box.width(), 11.0)
             painter.setPen(QColor(DIM))
-            painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, state_word(span.state))
+            painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, name)
 
 
 def _paint_grid(

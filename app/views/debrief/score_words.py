@@ -6,19 +6,21 @@ from dataclasses import dataclass, replace
 
 from app.core.messages import joined
 from app.core.units import MILLIMETRE
+from app.imaging.field.tissue_words import tissue_words
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.scoring.pass_line import pass_words
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.rows import Row, shown_sd
 from app.scoring.tolerance import Band
+from app.scoring.unit_words import unit_words
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.roles import Role
-from app.views.kit.text import begun, declared, listing, tr, tr_n
+from app.views.kit.text import begun, declared, listing, tr, tr_n, translated
 from app.views.kit.text import number as local
 
 
@@ -28,12 +30,13 @@ def risk_line(mark: RiskMark, origin: float) -> str:
     if mark.closest_mm <= 0.0:
         return tr(
             "✖ {name}: needle inside, {depth:.1f} mm deep, at {when} (limit {limit:g} mm)",
-            name=mark.name,
+            name=tissue_words(mark.name),
             depth=depth,
             when=when,
             limit=mark.limit_mm,
         )
-    values = {"name": mark.name, "distance": mark.closest_mm, "when": when, "limit": mark.limit_mm}
+    name = tissue_words(mark.name)
+    values = {"name": name, "distance": mark.closest_mm, "when": when, "limit": mark.limit_mm}
     if mark.breach_mm > 0.0:
         return tr("▲ {name}: {distance:.1f} mm, at {when}: nearer than {limit:g} mm", **values)
     return tr("✔ {name}: {distance:.1f} mm, at {when} (limit {limit:g} mm)", **values)
@@ -133,7 +136,7 @@ def short_words(conditions: Conditions | None) -> str:
         hands_word(conditions),
         kind_word(conditions.kind),
         tr("assistance {dial}", dial=dial) if dial else "",
-        tr("bands: {bands}", bands=bands_words(conditions)) if conditions.bands else "",
+        bands_words(conditions) if conditions.bands else "",
         tr("▲ model changed meanwhile: {models}", models=models_text(conditions))
         if conditions.models
         else "",
@@ -165,11 +168,16 @@ def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
 def bands_words(conditions: Conditions) -> str:
     """Say by whose bands it was judged, and whose attempts these were fitted to."""
     source = {
-        "scripts": tr("from scripts, not people"),
-        "people": tr("from people's attempts"),
-        "author": tr("as the exercise's author set them"),
+        "scripts": tr("set from scripted runs, not from people"),
+        "people": tr("set from people's attempts"),
+        "author": tr("set by the exercise's author"),
     }.get(conditions.bands_source, "")
-    hand = hand_word(replace(conditions, hand=conditions.bands, scripted=""))
+    hand = {
+        "mouse": tr("scoring bands for the mouse"),
+        "tablet": tr("scoring bands for the tablet"),
+        "gamepad": tr("scoring bands for the gamepad"),
+        "keyboard": tr("scoring bands for the keyboard"),
+    }.get(conditions.bands) or tr("scoring bands for {hand}", hand=conditions.bands)
     return ", ".join(filter(None, (hand, source)))
 
 
@@ -403,11 +411,12 @@ def number(value: float) -> str:
 
 def with_unit(value: float, unit: str, sd: float | None = None) -> str:
     """Say a value with its unit, and its deviation where it shows; the degree sign stands close."""
+    words = translated(unit_words(unit))
     if unit in COUNTED:
-        return f"{value:.0f} {unit}"
+        return f"{value:.0f} {words}"
     gap = "" if unit in ("°", "") else " "
     unsure = f" ± {number(sd)}" if sd and number(sd) != number(0.0) else ""
-    return f"{number(value)}{unsure}{gap}{unit}"
+    return f"{number(value)}{unsure}{gap}{words}"
 
 
 def total_text(score: Score | None, void: str = "") -> str:
@@ -483,7 +492,7 @@ def _limits(row: Row) -> str:
         expert=expert,
         good=good,
         passing=passing,
-        unit=row.unit,
+        unit=unit_words(row.unit),
     )
     required = tr("* required to pass") if row.tolerance.required else ""
     return "; ".join(filter(None, (text, required, pass_words(row.name, passing))))

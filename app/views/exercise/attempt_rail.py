@@ -38,21 +38,25 @@ WIDEST_SHARE: Final = 0.17
 WIDEST_PX: Final = 352
 """On large screens, with text of the usual size."""
 
+NARROWEST_PX: Final = 200
+"""In the smallest windows, which have more for the rail than its share: its words need it."""
+
 GRID: Final = 8
 """Margins, gaps and widths are whole numbers of so many pixels."""
 
 ORDER_LINES: Final = 5
 """Lines of the order, in the largest letters: the block below never moves."""
 
-LONGEST: Final = "88.8 mm"
+LONGEST: Final = "-188.8 mm"
 """What a number of the rail is as wide as."""
 
 _DISC: Final = 8.0
+_INDENT: Final = 8  # a label's own, beside its padding [px]
 
 
 def rail_width(window: int) -> int:
     """Return the width of the rail in a window [px]."""
-    widest = min(WIDEST_SHARE * window, WIDEST_PX * theme.scale())
+    widest = max(NARROWEST_PX, min(WIDEST_SHARE * window, WIDEST_PX * theme.scale()))
     return int(widest) // GRID * GRID
 
 
@@ -117,13 +121,13 @@ class OrderBlock(PlainLabel):
         self.fit()
 
     def fit(self) -> None:
-        """Take the larger letters in which all of it can be read, else the usual ones."""
+        """Take the largest letters in which all of it can be read; if none, more height."""
         high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
         self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
-        room = self.width() - 2 * GRID
-        pixels = theme.TITLE_PX
-        if not _fits(self.text(), pixels, room, self.height() - 2 * GRID):
-            pixels = theme.FONT_PX
+        room = self.width() - 2 * GRID - _INDENT
+        sizes = (theme.TITLE_PX, theme.FONT_PX, theme.SMALL_PX)
+        fitting = (px for px in sizes if _fits(self.text(), px, room, self.height() - 2 * GRID))
+        pixels = next(fitting, theme.SMALL_PX)
         ground = theme.now(theme.GOOD if self._good else theme.ACCENT)
         style = (
             f"background: {ground}; color: {theme.now(theme.BACKGROUND)}; font-size: {pixels}px;"
@@ -131,6 +135,9 @@ class OrderBlock(PlainLabel):
         )
         if style != self.styleSheet():
             self.setStyleSheet(style)
+        self.ensurePolished()
+        tall = max(self.height(), self.heightForWidth(self.width()))
+        self.setFixedHeight(-(-tall // GRID) * GRID)
 
 
 def _fits(words: str, pixels: int, width: int, height: int) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QImage, QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QFont, QImage, QKeyEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QFrame,
@@ -23,15 +23,17 @@ from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import HandName, Lock
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
+from app.imaging.field.tissue_words import tissue_words
 from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
+from app.scoring.unit_words import unit_words
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.page_keys import PageKeys
 from app.views.kit.parts import FittingButton, PlainLabel, button, label
 from app.views.kit.roles import Role
-from app.views.kit.text import declared, listing, literal, number, tr, tr_n
+from app.views.kit.text import declared, listing, literal, number, tr, tr_n, translated
 from app.views.reading.lock_words import view_title, views_for
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -66,7 +68,7 @@ def scored_words(exercise: Exercise) -> list[str]:
     said += _hands_words(exercise)
     for part in exercise.structures:
         for name, limit in part.risks.items():
-            said.append(tr("{name}: stay {mm:g} mm away", name=name, mm=limit))
+            said.append(tr("{name}: stay {mm:g} mm away", name=tissue_words(name), mm=limit))
     said.append(tr("{mark:g} of 100 points pass.", mark=exercise.rules.pass_mark))
     return said
 
@@ -107,7 +109,7 @@ def _value(value: float, unit: str) -> str:
         minutes, seconds = divmod(round(value), 60)
         return tr("{m}:{s:02d} min", m=minutes, s=seconds)
     gap = "" if unit in ("°", "") else " "
-    return number(value, "g") + gap + unit
+    return number(value, "g") + gap + translated(unit_words(unit))
 
 
 def locked_words(exercise: Exercise) -> list[str]:
@@ -281,7 +283,9 @@ class PortraitView(QWidget):
 
 
 # --- page -------------------------------------------------------------------------------------
-WORDS_WIDTH = 500
+BEGIN_WIDTH = 128
+WORDS_WIDTH, WORDS_SHARE = 500, 0.46
+"""Of the words beside the pictures: the most [px], and of the page's width."""
 
 
 class BriefingPage(QWidget):
@@ -372,6 +376,12 @@ class BriefingPage(QWidget):
         self._keys[offer.key] = widget
         self.offers[offer.name] = offer, widget
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the width between words and pictures."""
+        super().resizeEvent(event)
+        share = round(WORDS_SHARE * self.width())
+        self._area.setFixedWidth(min(theme.px(WORDS_WIDTH), share))
+
     # --- inside -------------------------------------------------------------------------------
     def _lay_out(self) -> None:
         words = QWidget()
@@ -397,7 +407,7 @@ class BriefingPage(QWidget):
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         area.setWidget(words)
-        area.setFixedWidth(theme.px(WORDS_WIDTH))
+        self._area = area
         pictures = QGridLayout()
         pictures.setSpacing(3)
         axial, coronal, sagittal = self.views
@@ -417,7 +427,7 @@ class BriefingPage(QWidget):
         buttons.addStretch(1)
         for widget in (self.show_me, self.look, self.begin):
             buttons.addWidget(widget)
-        self.begin.setMinimumWidth(theme.px(170))
+        self.begin.setMinimumWidth(theme.px(BEGIN_WIDTH))
         page = QVBoxLayout(self)
         page.setContentsMargins(2 * theme.MARGIN, theme.MARGIN, 2 * theme.MARGIN, 0)
         page.setSpacing(theme.SPACING)

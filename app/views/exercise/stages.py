@@ -27,6 +27,15 @@ def state_word(state: str) -> str:
     }.get(state, state)
 
 
+def phase_word(state: str) -> str:
+    """Name of a recorded state on the time axis of an attempt that is over.
+
+    While it was `withdrawing` the needle went to its start and then waited for the hand: both are
+    before the attempt.
+    """
+    return tr("Before the start") if state == State.WITHDRAWING else state_word(state)
+
+
 ORDER: Final[tuple[State, ...]] = (
     State.READY,
     State.ALIGNING,

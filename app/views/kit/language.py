@@ -22,7 +22,7 @@ from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QSettings, Q
 
 from app.core import paths
 from app.core.language import ENGLISH, PREFIX, folder
-from app.views.kit.text import begin_language
+from app.views.kit.text import begin_language, tr
 
 KEY: Final = "language"
 """Of the settings: a code; empty or absent for the system's language."""
@@ -78,6 +78,7 @@ def use_language(
         return code
     own = _compiled((within or folder()) / f"{PREFIX}{code}.ts")
     qt = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)) / f"qtbase_{code}.qm"
+    application.installTranslator(_Lacking(application))
     for file in (qt, own):  # the last one is asked first
         translation = _Translation(application)
         if file is not None and file.is_file() and translation.load(str(file)):
@@ -88,6 +89,29 @@ def use_language(
 
 class _Translation(QTranslator):
     """One that this file put on."""
+
+
+class _Lacking(_Translation):
+    """Answers for texts of Qt's own dialogs that Qt has not in a language."""
+
+    def isEmpty(self) -> bool:
+        """Return that it holds something: Qt asks no other."""
+        return False
+
+    def translate(  # None is a null string of Qt, "" would be one
+        self,
+        context: str,
+        sourceText: str,
+        disambiguation: str | None = None,
+        n: int = -1,
+    ) -> str | None:
+        """Return our own translation of a text; None where there is none."""
+        return lacking_in_qt().get(sourceText) if context.startswith("Q") else None
+
+
+def lacking_in_qt() -> dict[str, str]:
+    """Return texts of Qt's dialogs that some language of Qt lacks, with our own translation."""
+    return {"&Look in:": tr("&Look in:"), "Files of &type:": tr("Files of &type:")}
 
 
 def _files(within: Path) -> Iterator[Path]:

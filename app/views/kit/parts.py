@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.views.kit import theme
-from app.views.kit.text import literal
+from app.views.kit.text import keys_text, literal, tr
 
 
 class PlainLabel(QLabel):
@@ -89,8 +89,8 @@ def button(text: str, role: str = "", kind: type[QPushButton] = QPushButton) -> 
 class FittingButton(QPushButton):
     """A button that never asks for more width than there is.
 
-    Where the text does not fit, the key in brackets at its end goes first, then letters; a tip has
-    all of it unless the button has another.
+    Where the text does not fit, the key in brackets at its end is shortened, then it goes, then
+    letters do; a tip has all of it unless the button has another.
     """
 
     def __init__(self, text: str, parent: QWidget | None = None) -> None:
@@ -129,16 +129,29 @@ class FittingButton(QPushButton):
         element = QStyle.SubElement.SE_PushButtonContents
         room = self.style().subElementRect(element, option, self).width()
         metrics = self.fontMetrics()
-        if metrics.horizontalAdvance(self._whole) <= room:
-            shown = self._whole
-        else:
-            short = self._whole.rpartition(" (")[0] or self._whole
-            shown = metrics.elidedText(short, Qt.TextElideMode.ElideRight, room)
+        without = self._whole.rpartition(" (")[0] or self._whole
+        forms = (self._whole, with_short_key(self._whole), without)
+        fitting = (form for form in forms if metrics.horizontalAdvance(form) <= room)
+        shown = next(fitting, "") or metrics.elidedText(without, Qt.TextElideMode.ElideRight, room)
         if shown != self.text():
             super().setText(shown)
             if not self.toolTip():
                 self.setToolTip(literal(self._whole))
 
+
+def with_short_key(text: str) -> str:
+    """Return a text with the key in brackets at its end alone: "Abort (Esc)", "End (⏎)"."""
+    words, _, key = text.rpartition(" (")
+    if not words or not key.endswith(")"):
+        return text
+    enter = {"Enter", tr("Enter"), keys_text("Enter"), keys_text("Return")}
+    if key[:-1] in enter:
+        return f"{words} (⏎)"
+    shown = next((one for one in key[:-1].split() if one in _KEYS), "")
+    return f"{words} ({shown})" if shown else text
+
+
+_KEYS = frozenset(("Esc", "Échap", "Space", *"ABCDEFGHIJKLMNOPQRSTUVWXYZ"))
 
 NARROWEST_PX = 96
 """Of a button that gives way, at the usual size of the text."""

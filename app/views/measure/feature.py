@@ -31,7 +31,7 @@ from app.views.kit import theme
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import FittingButton
 from app.views.kit.roles import STAFF, Role
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, number, tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
 from app.views.measure.layer import MeasureGrip, MeasureLayer
 from app.views.shell.feature import Context, Feature
@@ -119,7 +119,11 @@ class MeasurePanel(QWidget):
         value.setFlags(value.flags() & ~Qt.ItemFlag.ItemIsEditable)
         value.setToolTip(
             literal(
-                "\n".join(f"{q.name}: {q.value:.2f} {q.unit}" for q in found if q.value is not None)
+                "\n".join(
+                    f"{q.name}: {number(q.value, '.2f')} {q.unit}"
+                    for q in found
+                    if q.value is not None
+                )
             )
         )
         self.table.setItem(row, 0, name)
@@ -186,8 +190,8 @@ class MeasurePanel(QWidget):
     def _lay_out(self) -> None:
         tools = QGridLayout()
         tools.setSpacing(4)
-        for number, button in enumerate(self.buttons.values()):
-            tools.addWidget(button, *divmod(number, 2))
+        for place, button in enumerate(self.buttons.values()):
+            tools.addWidget(button, *divmod(place, 2))
         row = QHBoxLayout()
         for button in (self.remove, self.clear, self.export):
             row.addWidget(button)

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.tracking.calibration.board_layout import RULER_MM, Paper
 from app.tracking.pen.board import marker_cells
 from app.tracking.pen.body import PenProfile
@@ -51,7 +52,13 @@ def write_pen(path: Path, pen: PenProfile, paper: Paper) -> tuple[Page, Page]:
     try:
         write_atomically(path, pen_bytes(pen, pages, paper))
     except OSError as error:
-        raise PenError(f"{path} cannot be written: {error.strerror or error}") from error
+        raise PenError(
+            sentence(
+                "{path} cannot be written: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     del application
     return pages
 

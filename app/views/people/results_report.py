@@ -28,6 +28,7 @@ from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.exchange.errors import ExportError
 from app.exchange.results import Results
 from app.scoring.tolerance import Band
@@ -219,7 +220,13 @@ def write_report(path: Path, draw: Callable[[], bytes]) -> None:
     try:
         write_atomically(path, draw())
     except OSError as error:
-        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+        raise ExportError(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     del application
 
 

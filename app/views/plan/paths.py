@@ -26,6 +26,7 @@ from PySide6.QtWidgets import (
 
 from app.core.loading import turn
 from app.core.progress import Progress
+from app.imaging.field.tissue_words import tissue_words
 from app.planning.clearance import Field
 from app.planning.draft import DraftPlan
 from app.planning.limits import ReachLimits
@@ -34,7 +35,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.roles import EVERYBODY, Role
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.plan.entry_map import EntryMap, EntryMapLayer, legend
 from app.views.plan.way import ABOUT_TARGET_MM
 from app.views.shell.feature import Context, Feature
@@ -125,8 +126,8 @@ class PathsPanel(QWidget):
     def _show_row(self, row: int, scores: PathScores, number: int) -> None:
         nearest = tr("none")
         if scores.nearest[number] >= 0:
-            name = scores.names[int(scores.nearest[number])]
-            nearest = f"{scores.nearest_mm[number]:.0f} {name}"
+            name = tissue_words(scores.names[int(scores.nearest[number])])
+            nearest = f"{scores.nearest_mm[number]:.0f} {translated(name)}"
         texts = (
             f"{scores.score[number]:.0f}",
             f"{scores.length_mm[number]:.0f}",

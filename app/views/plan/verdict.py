@@ -7,6 +7,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from app.core.units import DEGREE, MILLIMETRE
+from app.imaging.field.tissue_words import tissue_words
 from app.views.kit.text import tr, translated
 from app.views.plan.editor import PlanEditor
 
@@ -99,7 +100,7 @@ def _way_words(way: PlannedWay) -> tuple[str, str]:
 
 def _hindrance_words(hindrance: WayHindrance) -> str:
     """Name a tissue on the way and where it begins."""
-    tissue, depth = hindrance.name, hindrance.depth_mm
+    tissue, depth = tissue_words(hindrance.name), hindrance.depth_mm
     if hindrance.is_sure:
         return tr("{tissue} on the way at {depth:.0f} mm", tissue=tissue, depth=depth)
     return tr("perhaps {tissue} on the way at {depth:.0f} mm", tissue=tissue, depth=depth)

@@ -70,7 +70,11 @@ class Rebuilding(QObject):
     def change(self, code: str) -> None:
         """Build the window anew in another language; while an attempt runs, say that it waits."""
         window, application = self.window, QApplication.instance()
-        if code == chosen(window.settings) or not isinstance(application, QApplication):
+        before = chosen(window.settings)
+        if code == before or not isinstance(application, QApplication):
+            return
+        if code_for(code) == code_for(before):  # by its own name, or because the computer has it
+            choose(window.settings, code)
             return
         if window.editor.locked:
             window.message_bar.show_error(

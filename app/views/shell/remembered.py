@@ -21,7 +21,7 @@ from app.views.slices.bindings import SCHEMES
 from app.views.slices.panes import PaneId
 from app.views.slices.presentation import KINDS, THICKEST_MM, Presentation, Slab, Turn
 
-SMALLEST = (1180, 700)
+SMALLEST = (900, 560)
 PREFERRED = (1400, 900)
 
 _UNUSABLE = (ValueError, TypeError, KeyError, AttributeError, AcusError)

@@ -54,6 +54,7 @@ class RoleSwitch(QObject):
     ) -> None:
         super().__init__(parent)
         self._shell, self._controller, self._sign_in = shell, controller, sign_in
+        self._bar = bar
         self._settings: QSettings = shell.settings
         self._wanted = role_named(self._settings.value(_ROLE), first_role())
         self._asked: Role | None = None
@@ -141,6 +142,8 @@ class RoleSwitch(QObject):
         title = role_title(self.role)
         self.actions[self.role].setChecked(True)
         self.button.setText(title)
+        # Set once more, it gets the width of its new text.
+        self._bar.setCornerWidget(self.button, Qt.Corner.TopRightCorner)
         self.button.setAccessibleName(tr("Role: {role}", role=title))
         self.button.setToolTip(
             literal(

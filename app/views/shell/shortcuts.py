@@ -25,6 +25,7 @@ from app.views.kit.text import disclaimer, keys_text, tr
 from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 
 _AROUND_PX = 40
+_LEAST_PX = 300
 
 ROLE_KEY: Final = "Ctrl+Alt+R"
 """Opens the choice of roles."""
@@ -157,10 +158,19 @@ class ShortcutSheet(QDialog):
 
 def disclaimer_label(parent: QWidget | None = None) -> QLabel:
     """Return the sentence as a label."""
-    label = PlainLabel(disclaimer(), parent)
+    label = _WideLabel(disclaimer(), parent)
     label.setProperty("role", "disclaimer")
     label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    label.setWordWrap(True)  # never cut, however narrow the window
     return label
+
+
+class _WideLabel(PlainLabel):
+    """A label that wraps, and asks for no more height than its width makes necessary."""
+
+    def minimumSizeHint(self) -> QSize:
+        """Return a line of a narrow page; what more it takes its layout asks by the width."""
+        return QSize(theme.px(_LEAST_PX), self.fontMetrics().lineSpacing())
 
 
 def _table(group: Group) -> QGridLayout:

@@ -45,7 +45,8 @@ class ViewMenu:
         editor: PlanEditor,
         projector: Projector,
     ) -> None:
-        self._menu = menu = shell.menu(tr("&View"))
+        self._shell, self._menu = shell, shell.menu(tr("&View"))
+        menu = self._menu
         self._workspace, self._conductor = workspace, conductor
         self._editor, self._projector = editor, projector
         menu.setToolTipsVisible(True)
@@ -93,8 +94,9 @@ class ViewMenu:
         self.refresh()
 
     def add_menu(self, title: str) -> QMenu:
-        """Return another menu at the end of this one."""
-        return self._menu.addMenu(title)
+        """Return another menu at the end of this one, for everybody."""
+        with self._shell.made_for(EVERYBODY):
+            return self._menu.addMenu(title)
 
     def _fill_needle(self, menu: QMenu) -> None:
         workspace = self._workspace

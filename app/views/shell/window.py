@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QMainWindow,
     QMessageBox,
-    QStackedWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -51,6 +50,7 @@ from app.views.shell.features import FEATURES
 from app.views.shell.foreign_features import made
 from app.views.shell.help import ProblemReport, about, page_of, show_help
 from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, START, MessageBar, Notices
+from app.views.shell.pages import Pages
 from app.views.shell.projector import Projector
 from app.views.shell.remembered import Remembered
 from app.views.shell.role_switch import RoleSwitch
@@ -377,7 +377,7 @@ class MainWindow(QMainWindow):
     def _lay_out(self) -> None:
         """Make the place of the pages before them: a page that moves is styled once more."""
         centre = QWidget(self)
-        self.pages = QStackedWidget(centre)
+        self.pages = Pages(centre)
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)

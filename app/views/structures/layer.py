@@ -24,10 +24,11 @@ from PySide6.QtGui import (
 )
 
 from app.core.arrays import FloatArray
+from app.imaging.field.tissue_words import tissue_words
 from app.imaging.structures.structure import Mask, Structure, StructureKind, contours
 from app.planning.clearance import Nearness
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.items import label_font
@@ -91,7 +92,12 @@ def pen(structure: Structure, width: float = 2.0) -> QPen:
 
 def named(structure: Structure) -> str:
     """Return its name with the sign of its kind."""
-    return f"{SIGNS[structure.kind]} {structure.name}"
+    return f"{SIGNS[structure.kind]} {name_words(structure)}"
+
+
+def name_words(structure: Structure) -> str:
+    """Return its name in the user's language, where it is one of ours."""
+    return translated(tissue_words(structure.name))
 
 
 HATCH_ALPHA = 0.55
@@ -156,7 +162,7 @@ class StructureOutline(Shape):
         if self._structure is None:
             return QRectF()
         metrics = QFontMetrics(label_font())
-        width = metrics.horizontalAdvance(self._structure.name) + 6.0
+        width = metrics.horizontalAdvance(name_words(self._structure)) + 6.0
         height = metrics.height()
         return QRectF(
             self._top.x() - 0.5 * width / self._scale,
@@ -216,7 +222,7 @@ class StructureOutline(Shape):
             self._draw_name(painter, structure)
 
     def _draw_name(self, painter: QPainter, structure: Structure) -> None:
-        rect = self.name_rect()
+        rect, name = self.name_rect(), name_words(structure)
         painter.save()
         painter.translate(rect.topLeft())
         painter.scale(1.0 / self._scale, 1.0 / self._scale)
@@ -225,9 +231,9 @@ class StructureOutline(Shape):
         flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextDontClip
         painter.setPen(Qt.GlobalColor.black)
         for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-            painter.drawText(place.translated(dx, dy), flags, structure.name)
+            painter.drawText(place.translated(dx, dy), flags, name)
         painter.setPen(colour(structure).lighter(125))
-        painter.drawText(place, flags, structure.name)
+        painter.drawText(place, flags, name)
         painter.restore()
 
 
