@@ -209,7 +209,7 @@ def test_a_file_that_loops_at_import_costs_five_seconds_and_longer_on_a_slow_com
         monkeypatch.setattr(plugin_trial, "_failed", {})
         monkeypatch.setattr(plugin_trial, "TIMES", times)
         fault = import_fault(loops, "app")
-        assert fault == f"it had not come back after {taken} s of computing"
+        assert fault.startswith(f"it had not come back after {taken} s of computing; if it only")
 
 
 def test_a_file_that_was_fine_is_not_tried_again_and_one_that_failed_is(
