@@ -11,9 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from device.law_rig import pose
-from extending_page import PAGE, example, sections
+from extending_page import example, files, folders_section, sections
 from imaging.dicom_factory import Slices
 from scoring_attempts import Attempt
 
@@ -52,15 +51,20 @@ def test_every_how_to_of_the_page_has_a_test():
 
 
 def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
-    text = PAGE.read_text(encoding="utf-8").split("\n## Folders of plug-ins")[1]
-    commands = re.search(r"```sh\n(.*?)```", text, re.DOTALL)
-    name, code = example("How to add an effect")
-    path = tmp_path / "acus_mine" / "effects" / name
-    path.parent.mkdir(parents=True)
-    path.write_text(code, encoding="utf-8")
+    making, trying = re.findall(r"```sh\n(.*?)```", folders_section(), re.DOTALL)
+    for parts in (
+        files(sections()["How to add an effect"]),
+        files(sections()["How to add a metric"]),
+        files(folders_section()),
+    ):
+        for place, text in parts.items():
+            path = tmp_path / "acus_mine" / place
+            path.parent.mkdir(parents=True)
+            path.write_text(text, encoding="utf-8")
     acus = f'set -e\nacus() {{ "{sys.executable}" -m app "$@"; }}\n'
+    explain = trying.splitlines()[0]  # the others take minutes: they are played below
     done = subprocess.run(
-        ["bash", "-c", acus + commands[1]],
+        ["bash", "-c", acus + making + explain],
         cwd=tmp_path,
         env=os.environ | {"PYTHONPATH": str(ROOT)},
         capture_output=True,
@@ -69,6 +73,9 @@ def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
         timeout=120,
     )
     assert "✔ effect hand_tremor: Shaking side force" in done.stdout
+    assert "✔ metric deepest_point: Deepest point" in done.stdout
+    assert "✔ exercise steady-hand: With a shaking hand" in done.stdout
+    assert "hand_tremor: Shaking side force\n    model    sine" in done.stdout
     assert (tmp_path / "acus_mine" / "exercises").is_dir()
 
 
@@ -201,28 +208,16 @@ def test_a_machine_points_the_needle_in_a_whole_attempt(tmp_path, monkeypatch):
     from app.session.recording import read_recording
     from app.views.scene.robot import RobotShape
 
-    code = re.findall(r"```python\n(.*?)```", sections()["How to add a machine"], re.DOTALL)
-    folder = tmp_path / "mechanisms" / "gimbal"
-    folder.mkdir(parents=True)
-    for name, text in zip(("profile", "machine"), code, strict=True):
-        (folder / f"{name}.py").write_text(text, encoding="utf-8")
-    monkeypatch.setenv("ACUS_MECHANISMS", str(folder.parent))
+    for place, text in files(sections()["How to add a machine"]).items():
+        path = tmp_path / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    monkeypatch.setenv("ACUS_MECHANISMS", str(tmp_path / "mechanisms"))
     assert "gimbal" in kinds()
     (listed,) = (one for one in plugin_files() if one.kind == "machine")
     assert (listed.name, listed.refused) == ("gimbal", "")
     assert "gimbal as a machine" in listed.title
-    document = load_profile("icube").model_dump(mode="json", exclude_none=True)
-    document |= {"kind": "gimbal", "name": "bench-gimbal"}
-    rings = {"outer_inertia": 8e-4, "inner_inertia": 5e-4, "radius": 0.06}
-    for section, kept, new in (
-        ("geometry", ("fulcrum", "needle_length"), {}),
-        ("inertia", ("needle_mass", "needle_centre", "needle_inertia"), rings),
-    ):
-        known = document[section]
-        values = {name: known[name] for name in kept} | new
-        document[section] = values | {"provenance": dict.fromkeys(values, "estimated")}
-    path = tmp_path / "bench_gimbal.yaml"
-    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    path = tmp_path / "profiles" / "bench_gimbal.yaml"
     profile = load_profile(path)
     axis = unit((0.3, -0.2, -0.9))
     assert profile.machine.axis(profile.machine.usable(axis)) == pytest.approx(axis)

@@ -132,6 +132,13 @@ def _machine(folder: Path, tried: bool) -> PluginFile:
         reason = ""
         try:
             body = read_statements(folder / name)
+        except FileNotFoundError:
+            reason = sentence(
+                "{folder} has no {name}: a machine is a folder with profile.py and machine.py; see "
+                "'How to add a machine'",
+                folder=folder,
+                name=name,
+            )
         except (OSError, SyntaxError, ValueError) as error:
             reason = f"{folder / name} cannot be read: {error}"
         else:

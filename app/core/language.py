@@ -1,10 +1,11 @@
 """The language in which people are answered, read without Qt.
 
 A language is one file, `resources/translations/acus_<code>.ts`, as Qt's own tools write it; the
-window loads it compiled (`views/kit/language`), the command line reads it as it is. Files of others
-(`translations/` in the per-user data folder and in folders of plug-ins) bring further languages, and
-to one that is there the texts that it lacks, those of their own panels above all. Chosen is what
-the window remembers, else the first of the system's languages that there is, else English.
+window loads it compiled (`views/kit/language`), the command line reads it as it is. Files of
+others (`translations/` in the per-user data folder and in folders of plug-ins) bring further
+languages, and to one that is there the texts that it lacks, those of their own panels above all.
+Chosen is what the window remembers, else the first of the system's languages that there is, else
+English.
 """
 
 from __future__ import annotations

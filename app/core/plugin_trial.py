@@ -134,8 +134,8 @@ def _tried(path: Path, package: str, folder: Path | None) -> str:
     allowed, _, answer = done.stdout.partition("\n")
     if done.returncode in (-getattr(signal, "SIGXCPU", 0), -getattr(signal, "SIGKILL", 0)):
         return (
-            f"it had not come back after {allowed or longer * MOST} s of computing; if it only takes "
-            "long to compile, try again: what has been compiled is kept"
+            f"it had not come back after {allowed or longer * MOST} s of computing; if it only "
+            "takes long to compile, try again: what has been compiled is kept"
         )
     try:
         return str(json.loads(answer))

@@ -1,9 +1,9 @@
 """The window's language: which there are, which is chosen, and how one is put on.
 
 A language is one file, `resources/translations/acus_<code>.ts`, as Qt's own tools write and read
-it, and what files of others add to it (`core.language`). Qt loads it compiled: the compiled file is made by `lrelease`, which comes with Qt, when it is
-first asked for, and kept in the user's cache under the digest of its source. Without `lrelease`
-the window stays English.
+it, and what files of others add to it (`core.language`). Qt loads them compiled: the compiled file
+is made by `lrelease`, which comes with Qt, when it is first asked for, and kept in the user's cache
+under the digest of its source. Without `lrelease` the window stays English.
 """
 
 from __future__ import annotations
