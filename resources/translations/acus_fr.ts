@@ -1404,6 +1404,18 @@
             <translation type="unfinished">machines</translation>
         </message>
         <message>
+            <source>{count} texts</source>
+            <translation type="unfinished">{count} textes</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read: {error}</source>
+            <translation type="unfinished">{path} ne peut pas être lu : {error}</translation>
+        </message>
+        <message>
+            <source>{folder} has no {name}: a machine is a folder with profile.py and machine.py; see 'How to add a machine'</source>
+            <translation type="unfinished">{folder} n’a pas de {name} : une machine est un dossier avec profile.py et machine.py ; voir « How to add a machine »</translation>
+        </message>
+        <message>
             <source>{path} must define FEATURE, a class of Feature; see 'How to add a panel'</source>
             <translation type="unfinished">{path} doit définir FEATURE, une classe de Feature ; voir « How to add a panel »</translation>
         </message>
@@ -13219,10 +13231,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source> (wheel towards you)</source>
             <translation type="unfinished"> (molette vers vous)</translation>
-        </message>
-        <message>
-            <source> and </source>
-            <translation type="unfinished"> et </translation>
         </message>
         <message>
             <source>Press F5 to start the attempt</source>
