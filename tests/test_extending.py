@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -59,7 +60,7 @@ def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
     ):
         for place, text in parts.items():
             path = tmp_path / "acus_mine" / place
-            path.parent.mkdir(parents=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
     acus = f'set -e\nacus() {{ "{sys.executable}" -m app "$@"; }}\n'
     explain = trying.splitlines()[0]  # the others take minutes: they are played below
@@ -73,6 +74,7 @@ def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
         timeout=120,
     )
     assert "✔ effect hand_tremor: Shaking side force" in done.stdout
+    assert "✔ effect axial_drag: Drag along the needle" in done.stdout
     assert "✔ metric deepest_point: Deepest point" in done.stdout
     assert "✔ exercise steady-hand: With a shaking hand" in done.stdout
     assert "hand_tremor: Shaking side force\n    model    sine" in done.stdout
@@ -90,6 +92,23 @@ def test_a_force_law_acts(save):
     step(state, parameters)
     assert name == "upright_spring"
     assert state[sv.FORCE] == pytest.approx([3.0 * 0.48, 0.0, 3.0 * 0.36])
+
+
+def test_the_effect_along_the_needle_drags_at_its_speed_and_not_at_steps_of_a_measurement():
+    code = files(sections()["How to add an effect"])["effects/axial_drag.py"]
+    effect: dict[str, object] = {"__name__": "axial_drag"}
+    exec(code.replace("@stage\n", ""), effect)  # as Python: it is not compiled
+    for slot, largest in ((sv.PLANT_DEPTH, 2.0), (sv.DEPTH, 2.2)):
+        binding = SimpleNamespace(depth_slot=slot)
+        p, state = effect["parameters"]({"drag": 20.0}, binding), np.zeros(sv.SLOTS)
+        state[sv.DT], forces = 1e-3, []
+        for tick in range(600):  # 0.1 m/s; a measured depth comes with each picture, 60 a second
+            seen = tick if slot == sv.PLANT_DEPTH else tick - tick % 16
+            state[slot], state[sv.AXIAL_FORCE] = 1e-4 * seen, 0.0
+            effect["step"](state, p)
+            forces.append(state[sv.AXIAL_FORCE])
+        assert np.mean(forces[300:]) == pytest.approx(2.0, rel=0.1)
+        assert max(forces[300:]) < 1.6 * largest
 
 
 @pytest.mark.long("journey")
