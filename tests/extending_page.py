@@ -13,10 +13,19 @@ def sections() -> dict[str, str]:
 
 
 def example(heading: str) -> tuple[str, str]:
-    """Return name and content of the file that a section says to save."""
-    section = sections()[heading]
-    name = re.search(r"Save this as\s+`[\w/]+/([\w.]+)`", section)
-    code = re.search(r"```(?:python|yaml)\n(.*?)```", section, re.DOTALL)
-    assert name is not None
-    assert code is not None
-    return name[1], code[1]
+    """Return name and content of the first file that a section says to save."""
+    name, code = next(iter(files(sections()[heading]).items()))
+    return name.rpartition("/")[2], code
+
+
+def files(section: str) -> dict[str, str]:
+    """Return the files that a section says to save: their paths, and what is in them."""
+    said = re.finditer(
+        r"[Ss]ave this\s+as\s+`([\w./-]+)`.*?```(?:python|yaml|xml)\n(.*?)```", section, re.DOTALL
+    )
+    return {one[1]: one[2] for one in said}
+
+
+def folders_section() -> str:
+    """Return what the page says of folders of plug-ins."""
+    return PAGE.read_text(encoding="utf-8").split("\n## Folders of plug-ins")[1].split("\n## ")[0]

@@ -8,12 +8,12 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import yaml
 from device.law_rig import pose
-from extending_page import PAGE, example, sections
+from extending_page import example, files, folders_section, sections
 from imaging.dicom_factory import Slices
 from scoring_attempts import Attempt
 
@@ -52,15 +52,20 @@ def test_every_how_to_of_the_page_has_a_test():
 
 
 def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
-    text = PAGE.read_text(encoding="utf-8").split("\n## Folders of plug-ins")[1]
-    commands = re.search(r"```sh\n(.*?)```", text, re.DOTALL)
-    name, code = example("How to add an effect")
-    path = tmp_path / "acus_mine" / "effects" / name
-    path.parent.mkdir(parents=True)
-    path.write_text(code, encoding="utf-8")
+    making, trying = re.findall(r"```sh\n(.*?)```", folders_section(), re.DOTALL)
+    for parts in (
+        files(sections()["How to add an effect"]),
+        files(sections()["How to add a metric"]),
+        files(folders_section()),
+    ):
+        for place, text in parts.items():
+            path = tmp_path / "acus_mine" / place
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
     acus = f'set -e\nacus() {{ "{sys.executable}" -m app "$@"; }}\n'
+    explain = trying.splitlines()[0]  # the others take minutes: they are played below
     done = subprocess.run(
-        ["bash", "-c", acus + commands[1]],
+        ["bash", "-c", acus + making + explain],
         cwd=tmp_path,
         env=os.environ | {"PYTHONPATH": str(ROOT)},
         capture_output=True,
@@ -69,6 +74,10 @@ def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
         timeout=120,
     )
     assert "✔ effect hand_tremor: Shaking side force" in done.stdout
+    assert "✔ effect axial_drag: Drag along the needle" in done.stdout
+    assert "✔ metric deepest_point: Deepest point" in done.stdout
+    assert "✔ exercise steady-hand: With a shaking hand" in done.stdout
+    assert "hand_tremor: Shaking side force\n    model    sine" in done.stdout
     assert (tmp_path / "acus_mine" / "exercises").is_dir()
 
 
@@ -83,6 +92,23 @@ def test_a_force_law_acts(save):
     step(state, parameters)
     assert name == "upright_spring"
     assert state[sv.FORCE] == pytest.approx([3.0 * 0.48, 0.0, 3.0 * 0.36])
+
+
+def test_the_effect_along_the_needle_drags_at_its_speed_and_not_at_steps_of_a_measurement():
+    code = files(sections()["How to add an effect"])["effects/axial_drag.py"]
+    effect: dict[str, object] = {"__name__": "axial_drag"}
+    exec(code.replace("@stage\n", ""), effect)  # as Python: it is not compiled
+    for slot, largest in ((sv.PLANT_DEPTH, 2.0), (sv.DEPTH, 2.2)):
+        binding = SimpleNamespace(depth_slot=slot)
+        p, state = effect["parameters"]({"drag": 20.0}, binding), np.zeros(sv.SLOTS)
+        state[sv.DT], forces = 1e-3, []
+        for tick in range(600):  # 0.1 m/s; a measured depth comes with each picture, 60 a second
+            seen = tick if slot == sv.PLANT_DEPTH else tick - tick % 16
+            state[slot], state[sv.AXIAL_FORCE] = 1e-4 * seen, 0.0
+            effect["step"](state, p)
+            forces.append(state[sv.AXIAL_FORCE])
+        assert np.mean(forces[300:]) == pytest.approx(2.0, rel=0.1)
+        assert max(forces[300:]) < 1.6 * largest
 
 
 @pytest.mark.long("journey")
@@ -201,28 +227,16 @@ def test_a_machine_points_the_needle_in_a_whole_attempt(tmp_path, monkeypatch):
     from app.session.recording import read_recording
     from app.views.scene.robot import RobotShape
 
-    code = re.findall(r"```python\n(.*?)```", sections()["How to add a machine"], re.DOTALL)
-    folder = tmp_path / "mechanisms" / "gimbal"
-    folder.mkdir(parents=True)
-    for name, text in zip(("profile", "machine"), code, strict=True):
-        (folder / f"{name}.py").write_text(text, encoding="utf-8")
-    monkeypatch.setenv("ACUS_MECHANISMS", str(folder.parent))
+    for place, text in files(sections()["How to add a machine"]).items():
+        path = tmp_path / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    monkeypatch.setenv("ACUS_MECHANISMS", str(tmp_path / "mechanisms"))
     assert "gimbal" in kinds()
     (listed,) = (one for one in plugin_files() if one.kind == "machine")
     assert (listed.name, listed.refused) == ("gimbal", "")
     assert "gimbal as a machine" in listed.title
-    document = load_profile("icube").model_dump(mode="json", exclude_none=True)
-    document |= {"kind": "gimbal", "name": "bench-gimbal"}
-    rings = {"outer_inertia": 8e-4, "inner_inertia": 5e-4, "radius": 0.06}
-    for section, kept, new in (
-        ("geometry", ("fulcrum", "needle_length"), {}),
-        ("inertia", ("needle_mass", "needle_centre", "needle_inertia"), rings),
-    ):
-        known = document[section]
-        values = {name: known[name] for name in kept} | new
-        document[section] = values | {"provenance": dict.fromkeys(values, "estimated")}
-    path = tmp_path / "bench_gimbal.yaml"
-    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    path = tmp_path / "profiles" / "bench_gimbal.yaml"
     profile = load_profile(path)
     axis = unit((0.3, -0.2, -0.9))
     assert profile.machine.axis(profile.machine.usable(axis)) == pytest.approx(axis)

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app import mechanisms
-from app.core import paths
+from app.core import language, paths
 from app.core import plugin_folders as folders
 from app.core.errors import AcusError
 from app.core.messages import sentence
@@ -78,7 +78,7 @@ def plugin_files(tried: bool = False, progress: Progress | None = None) -> tuple
     for folder in folders.folders():
         if not folder.is_own:
             found += _parts(folder, tried)
-    return _with_refused(found)
+    return _with_refused(found + _languages())
 
 
 def _with_refused(result: list[PluginFile]) -> tuple[PluginFile, ...]:
@@ -97,6 +97,19 @@ def _with_refused(result: list[PluginFile]) -> tuple[PluginFile, ...]:
         if path not in listed
     ]
     return tuple(files)
+
+
+def _languages() -> list[PluginFile]:
+    """List texts of languages that others bring."""
+    rows = []
+    for path in language.own_files():
+        title, reason = "", ""
+        try:
+            title = sentence("{count} texts", count=len(language.read(path)))
+        except (OSError, SyntaxError) as error:
+            reason = sentence("{path} cannot be read: {error}", path=path, error=str(error))
+        rows.append(PluginFile("language", path, title, reason))
+    return rows
 
 
 def _machines(tried: bool) -> list[PluginFile]:
@@ -119,6 +132,13 @@ def _machine(folder: Path, tried: bool) -> PluginFile:
         reason = ""
         try:
             body = read_statements(folder / name)
+        except FileNotFoundError:
+            reason = sentence(
+                "{folder} has no {name}: a machine is a folder with profile.py and machine.py; see "
+                "'How to add a machine'",
+                folder=folder,
+                name=name,
+            )
         except (OSError, SyntaxError, ValueError) as error:
             reason = f"{folder / name} cannot be read: {error}"
         else:
@@ -212,7 +232,8 @@ def _defined(body: list[ast.stmt]) -> set[str]:
 def plugin_folders() -> dict[str, tuple[Path, ...]]:
     """Return where the user's own files of each kind lie; a folder need not exist."""
     places = {kind.word: paths.plugin_places(kind.folder) for kind, _ in _kinds()}
-    return places | {"machine": paths.plugin_places("mechanisms")}
+    more = {"machine": "mechanisms", "language": "translations"}
+    return places | {word: paths.plugin_places(folder) for word, folder in more.items()}
 
 
 def refused_files() -> tuple[PluginFile, ...]:

@@ -5,7 +5,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
@@ -286,10 +286,22 @@ def _problem(problem: ErrorDetails, model: type[Strict]) -> FieldProblem:
         text = sentence("{wrong}, got a list of {n}", wrong=said, n=len(value))
     else:
         text = sentence("{wrong}, got {entry}", wrong=said, entry=shown(value))
-    if problem["type"] == "extra_forbidden" and len(problem["loc"]) == 1:
-        names = ", ".join(field.alias or name for name, field in model.model_fields.items())
+    if problem["type"] == "extra_forbidden" and (section := _section(model, problem["loc"][:-1])):
+        names = ", ".join(field.alias or name for name, field in section.model_fields.items())
         text = sentence("{wrong}; valid names: {names}", wrong=text, names=names)
     return FieldProblem(problem["loc"] or _first_word(said, model), text)
+
+
+def _section(model: type[BaseModel], place: Sequence[str | int]) -> type[BaseModel] | None:
+    """Return the model of a section within a document; None where none or several may stand."""
+    for part in place:
+        field = model.model_fields.get(str(part))
+        kinds = () if field is None else (field.annotation, *get_args(field.annotation))
+        models = [one for one in kinds if isinstance(one, type) and issubclass(one, BaseModel)]
+        if len(models) != 1:
+            return None
+        (model,) = models
+    return model
 
 
 def _first_word(message: str, model: type[Strict]) -> tuple[str, ...]:

@@ -1,8 +1,11 @@
 """The language in which people are answered, read without Qt.
 
 A language is one file, `resources/translations/acus_<code>.ts`, as Qt's own tools write it; the
-window loads it compiled (`views/kit/language`), the command line reads it as it is. Chosen is what
-the window remembers, else the first of the system's languages that there is, else English.
+window loads it compiled (`views/kit/language`), the command line reads it as it is. Files of
+others (`translations/` in the per-user data folder and in folders of plug-ins) bring further
+languages, and to one that is there the texts that it lacks, those of their own panels above all.
+Chosen is what the window remembers, else the first of the system's languages that there is, else
+English.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
-from app.core import paths
+from app.core import paths, plugin_folders
 from app.core.texts import Lookup, Texts
 
 ENGLISH: Final = "en"
@@ -34,11 +37,31 @@ def folder() -> Path:
     return paths.resources() / "translations"
 
 
+def own_files() -> list[Path]:
+    """Return the files of others, in the order in which they are asked for a text."""
+    shared = (one.path / "translations" for one in plugin_folders.folders())
+    places = (*paths.plugin_places("translations"), *shared)
+    return [path for place in places for path in sorted(place.glob(f"{PREFIX}*.ts"))]
+
+
+def files(within: Path | None = None) -> dict[str, list[Path]]:
+    """Return code -> the files of a language, the one to be asked first before the others.
+
+    Args:
+        within: the one folder that is looked at; those of the program and of others by default.
+    """
+    shipped = sorted((within or folder()).glob(f"{PREFIX}*.ts"))
+    languages: dict[str, list[Path]] = {}
+    for path in shipped if within else (*shipped, *own_files()):
+        languages.setdefault(path.stem.removeprefix(PREFIX), []).append(path)
+    return languages
+
+
 def code(within: Path | None = None) -> str:
     """Return the code of the language in which people are answered."""
-    place = within or folder()
+    there = files(within)
     for wanted in (_remembered(), *_of_system()):
-        if wanted == ENGLISH or (wanted and (place / f"{PREFIX}{wanted}.ts").is_file()):
+        if wanted == ENGLISH or wanted in there:
             return wanted
     return ENGLISH
 
@@ -46,13 +69,14 @@ def code(within: Path | None = None) -> str:
 @cache
 def texts(language: str, within: Path | None = None) -> Texts:
     """Return the texts of a language; English where its file cannot be read: the log says why."""
-    if language != ENGLISH:
+    forms: dict[str, tuple[str, ...]] = {}
+    for file in [] if language == ENGLISH else files(within).get(language, []):
         try:
-            forms = read((within or folder()) / f"{PREFIX}{language}.ts")
+            forms = read(file) | forms
         except (OSError, SyntaxError) as error:  # an XML that is none is a syntax error
-            logging.getLogger(__name__).warning("%s cannot be used: %s", language, error)
-        else:
-            return Texts(_lookup(forms, _FIRST_FORM.get(language, (1,)))).begin(english=False)
+            logging.getLogger(__name__).warning("%s cannot be used: %s", file, error)
+    if forms:
+        return Texts(_lookup(forms, _FIRST_FORM.get(language, (1,)))).begin(english=False)
     return Texts(lambda english, _: english).begin(english=True)
 
 

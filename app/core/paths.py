@@ -69,8 +69,8 @@ def plugin_places(kind: str) -> tuple[Path, ...]:
     """Return the folders of a laboratory's own files: `laws`, `effects`, `mechanisms` or the like.
 
     `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES`, `ACUS_EXTRACTORS`, `ACUS_REMEDIES`,
-    `ACUS_NEEDLE_SOURCES` and `ACUS_MECHANISMS` list others in the place of the per-user one, as
-    PATH lists folders.
+    `ACUS_NEEDLE_SOURCES`, `ACUS_MECHANISMS` and `ACUS_TRANSLATIONS` list others in the place of the
+    per-user one, as PATH lists folders.
     """
     return _listed(f"ACUS_{kind.upper()}") or (data() / kind,)
 

@@ -6,7 +6,8 @@ say of what kind their files are; each kind is looked for by whoever uses it:
 | subfolder | holds |
 |---|---|
 | `machines/` | machines that point a needle, a folder each |
-| `laws/`, `effects/`, `metrics/`, `extractors/`, `studies/` | plug-ins of that kind, a file each |
+| `laws/`, `effects/`, `metrics/`, `extractors/` | plug-ins of that kind, a file each |
+| `remedies/`, `studies/` | the same |
 | `needle_sources/` | what stands in for robot and cameras, a file each |
 | `features/` | features of the window |
 | `views/` | what features are built from; views that exercises switch on and off |
@@ -14,6 +15,7 @@ say of what kind their files are; each kind is looked for by whoever uses it:
 | `commands/` | further commands |
 | `devices/` | profiles of devices, YAML files |
 | `exercises/` | exercises |
+| `translations/` | texts of languages, files of Qt's `lupdate` |
 | `hard_cases/` | hard cases for `acus study hard` |
 | `comparisons/` | machines in the table of `acus study machines` |
 

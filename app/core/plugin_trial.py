@@ -36,6 +36,10 @@ TIMES: Final = 20
 MOST: Final = 20
 """Processor time that no import may exceed [s], whatever importing those two has taken."""
 
+MACHINE: Final = 4
+"""How many times as long a file of a folder of its own may take: a machine is compiled when it is
+imported, which takes 6 s by itself on a busy computer, and what it calls as well the first time."""
+
 CLOCK: Final = 120.0
 """Time on the clock that it may take [s]."""
 
@@ -109,7 +113,8 @@ def import_fault(path: Path, package: str, folder: Path | None = None) -> str:
 def _tried(path: Path, package: str, folder: Path | None) -> str:
     parts = (path.stem,) if folder is None else path.relative_to(folder).with_suffix("").parts
     name, more = ".".join((package, *parts)), () if folder is None else (str(folder),)
-    limits = tuple(map(str, (SECONDS, TIMES, MOST)))
+    longer = 1 if folder is None else MACHINE
+    limits = tuple(str(longer * limit) for limit in (SECONDS, TIMES, MOST))
     try:
         done = subprocess.run(
             [*interpreter(), "-c", _CHILD, str(path), package, name, *limits, *more],
@@ -128,7 +133,10 @@ def _tried(path: Path, package: str, folder: Path | None) -> str:
         return f"no process can be started to try it: {error.strerror or error}"
     allowed, _, answer = done.stdout.partition("\n")
     if done.returncode in (-getattr(signal, "SIGXCPU", 0), -getattr(signal, "SIGKILL", 0)):
-        return f"it had not come back after {allowed or MOST} s of computing"
+        return (
+            f"it had not come back after {allowed or longer * MOST} s of computing; if it only "
+            "takes long to compile, try again: what has been compiled is kept"
+        )
     try:
         return str(json.loads(answer))
     except ValueError:

@@ -1416,6 +1416,18 @@
             <translation type="unfinished">Maschinen</translation>
         </message>
         <message>
+            <source>{count} texts</source>
+            <translation type="unfinished">{count} Texte</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read: {error}</source>
+            <translation type="unfinished">{path} kann nicht gelesen werden: {error}</translation>
+        </message>
+        <message>
+            <source>{folder} has no {name}: a machine is a folder with profile.py and machine.py; see 'How to add a machine'</source>
+            <translation type="unfinished">{folder} hat kein {name}: Eine Maschine ist ein Ordner mit profile.py und machine.py; siehe „How to add a machine“</translation>
+        </message>
+        <message>
             <source>{path} must define FEATURE, a class of Feature; see 'How to add a panel'</source>
             <translation type="unfinished">{path} muss FEATURE definieren, eine Klasse von Feature; siehe „How to add a panel“</translation>
         </message>

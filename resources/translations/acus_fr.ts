@@ -1416,6 +1416,18 @@
             <translation type="unfinished">machines</translation>
         </message>
         <message>
+            <source>{count} texts</source>
+            <translation type="unfinished">{count} textes</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read: {error}</source>
+            <translation type="unfinished">{path} ne peut pas être lu : {error}</translation>
+        </message>
+        <message>
+            <source>{folder} has no {name}: a machine is a folder with profile.py and machine.py; see 'How to add a machine'</source>
+            <translation type="unfinished">{folder} n’a pas de {name} : une machine est un dossier avec profile.py et machine.py ; voir « How to add a machine »</translation>
+        </message>
+        <message>
             <source>{path} must define FEATURE, a class of Feature; see 'How to add a panel'</source>
             <translation type="unfinished">{path} doit définir FEATURE, une classe de Feature ; voir « How to add a panel »</translation>
         </message>

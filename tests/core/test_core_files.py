@@ -65,7 +65,7 @@ def test_every_field_that_is_wrong_is_named_at_once_and_nothing_is_dumped(tmp_pa
     message = str(caught.value).partition("probe.yaml: ")[2]
     assert message == (
         "required and missing: first.rate_hz, second; "
-        "first.rate: Extra inputs are not permitted, got 3 (line 1); "
+        "first.rate: Extra inputs are not permitted, got 3; valid names: rate_hz, name (line 1); "
         "sizes: Input should be a valid tuple, got a mapping of 1 (line 2); "
         "third: Extra inputs are not permitted, got a list of 2; "
         "valid names: first, second, sizes (line 3)"

@@ -7,7 +7,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from extending_page import files, sections
 
+from app.compose.plugins import plugin_files
+from app.core import language as core_language
 from app.core.messages import sentence
 from app.views.kit.language import languages, use_language
 from app.views.kit.text import declared, number, tr, translated
@@ -65,6 +68,54 @@ def test_a_language_is_added_as_the_page_says(spoken, tmp_path, monkeypatch):
     assert spoken("en", tmp_path) == "en"
     assert tr("no picture") == "no picture"
     assert tr("{share:.1f}", share=2.5) == "2.5"
+
+
+@pytest.fixture
+def brought(tmp_path, monkeypatch):
+    """Folder in which somebody saves files of languages, and the one of the page in it."""
+    monkeypatch.setenv("ACUS_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("ACUS_TRANSLATIONS", str(tmp_path / "translations"))
+    monkeypatch.setenv("ACUS_PLUGINS", "")
+    monkeypatch.setattr(core_language, "texts", core_language.texts.__wrapped__)
+    for name, text in files(sections()["How to add a language"]).items():
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    return tmp_path / "translations"
+
+
+def test_the_few_texts_of_the_page_are_a_language_of_the_window_and_of_the_command_line(
+    spoken, brought
+):
+    assert languages()["it"] == "Italiano"
+    assert spoken("it", None) == "it"
+    assert tr("Start attempt") == "Inizia il tentativo"
+    assert tr("{share:.1f}", share=2.5) == "2,5"
+    assert tr("no picture") == "no picture"
+    assert core_language.texts("it").text("Slope of the path") == "Pendenza del percorso"
+    assert core_language.texts("it").number(0.5, ".1f") == "0,5"
+    (listed,) = (one for one in plugin_files() if one.kind == "language")
+    assert (listed.name, str(listed.title), listed.refused) == ("acus_it", "3 texts", "")
+
+
+def test_a_file_of_others_adds_to_a_language_and_replaces_nothing(spoken, brought):
+    shipped = core_language.texts("de").text("Start attempt")
+    text = (brought / "acus_it.ts").read_text(encoding="utf-8")
+    (brought / "acus_de.ts").write_text(text.replace("del percorso", "des Wegs"), encoding="utf-8")
+    assert shipped not in ("Start attempt", "Inizia il tentativo")
+    assert spoken("de", None) == "de"
+    for answer in (tr, core_language.texts("de").text):
+        assert answer("Start attempt") == shipped
+        assert answer("Slope of the path") == "Pendenza des Wegs"
+
+
+def test_a_file_that_is_no_xml_is_named_and_leaves_the_language_as_it_was(spoken, brought):
+    (brought / "acus_de.ts").write_text("<TS")
+    (bad,) = (one for one in plugin_files() if one.refused)
+    assert bad.path == brought / "acus_de.ts"
+    assert "acus_de.ts cannot be read: unclosed token: line 1" in bad.refused
+    assert core_language.texts("de").text("Start attempt") != "Start attempt"
+    assert spoken("de", None) == "de"
+    assert tr("Start attempt") != "Start attempt"
 
 
 def test_a_language_that_is_not_there_is_english(spoken, tmp_path):

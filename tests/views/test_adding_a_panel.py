@@ -9,6 +9,7 @@ from window_rig import plan
 
 from app.core import plugin_folders
 from app.planning.placement import Placement
+from app.views.kit.roles import EVERYBODY, Role
 from app.views.shell.feature_plugins import with_plugins
 from app.views.shell.features import FEATURES
 from app.views.shell.window import MainWindow
@@ -55,6 +56,32 @@ def longer(application, services, destroy, order):
     destroy(window)
     window.show()
     yield window
+    window.editor.saved(Path("kept"))
+
+
+def test_the_panel_of_the_page_is_there_for_whom_the_page_says(longer, feature):
+    panel = longer.feature(feature).panel
+    side = longer.workspace.side
+    longer.roles.choose(Role.INSTRUCTOR)
+    assert "Slope" in side.names()
+    assert entry(longer)
+    longer.roles.choose(Role.STUDENT)
+    assert "&Measure" not in [one.text() for one in longer.menuBar().actions()]
+    assert not panel.isVisible()
+
+
+def test_a_panel_for_everybody_is_shown_by_its_entry_in_a_student_s_window(
+    application, services, destroy, order, feature, patient, monkeypatch
+):
+    monkeypatch.setattr(feature, "roles", EVERYBODY)
+    window = MainWindow(services, order)
+    destroy(window)
+    window.show()
+    window.roles.choose(Role.STUDENT)
+    window.show_patient(patient)
+    plan(window)
+    entry(window).trigger()
+    assert window.feature(feature).panel.isVisible()
     window.editor.saved(Path("kept"))
 
 

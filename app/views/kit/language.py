@@ -1,9 +1,9 @@
 """The window's language: which there are, which is chosen, and how one is put on.
 
 A language is one file, `resources/translations/acus_<code>.ts`, as Qt's own tools write and read
-it. Qt loads it compiled: the compiled file is made by `lrelease`, which comes with Qt, when it is
-first asked for, and kept in the user's cache under the digest of its source. Without `lrelease`
-the window stays English.
+it, and what files of others add to it (`core.language`). Qt loads them compiled: the compiled file
+is made by `lrelease`, which comes with Qt, when it is first asked for, and kept in the user's cache
+under the digest of its source. Without `lrelease` the window stays English.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import logging
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
@@ -21,7 +20,7 @@ import PySide6
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QSettings, QTranslator
 
 from app.core import paths
-from app.core.language import ENGLISH, PREFIX, folder
+from app.core.language import ENGLISH, files
 from app.views.kit.text import begin_language, tr
 
 KEY: Final = "language"
@@ -32,8 +31,7 @@ _LONGEST_S: Final = 30.0
 
 def languages(within: Path | None = None) -> dict[str, str]:
     """Return code -> the language's name in itself, English first."""
-    codes = sorted(path.stem.removeprefix(PREFIX) for path in _files(within or folder()))
-    return {ENGLISH: "English"} | {code: _name(code) for code in codes}
+    return {ENGLISH: "English"} | {code: _name(code) for code in sorted(files(within))}
 
 
 def chosen(settings: QSettings) -> str:
@@ -65,7 +63,7 @@ def use_language(
     Args:
         application: whose translations they are; those of before go.
         choice: a code of `languages`; empty for the system's.
-        within: folder of the languages; the shipped one by default.
+        within: the one folder of the languages; those of the program and of others by default.
     """
     for old in application.findChildren(_Translation):
         application.removeTranslator(old)
@@ -76,10 +74,10 @@ def use_language(
     if code == ENGLISH:
         begin_language(english=True)
         return code
-    own = _compiled((within or folder()) / f"{PREFIX}{code}.ts")
+    own = map(_compiled, reversed(files(within)[code]))
     qt = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)) / f"qtbase_{code}.qm"
     application.installTranslator(_Lacking(application))
-    for file in (qt, own):  # the last one is asked first
+    for file in (qt, *own):  # the last one is asked first
         translation = _Translation(application)
         if file is not None and file.is_file() and translation.load(str(file)):
             application.installTranslator(translation)
@@ -112,10 +110,6 @@ class _Lacking(_Translation):
 def lacking_in_qt() -> dict[str, str]:
     """Return texts of Qt's dialogs that some language of Qt lacks, with our own translation."""
     return {"&Look in:": tr("&Look in:"), "Files of &type:": tr("Files of &type:")}
-
-
-def _files(within: Path) -> Iterator[Path]:
-    return within.glob(f"{PREFIX}*.ts")
 
 
 def _name(code: str) -> str:
