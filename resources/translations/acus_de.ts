@@ -12932,7 +12932,7 @@ aus der Ebene {c:+.1f}° (Pfad {d:+.1f}°)</translation>
         </message>
         <message>
             <source>End attempt (Enter)</source>
-            <translation type="unfinished">Versuch beenden (Eingabe)</translation>
+            <translation type="unfinished">Beenden (Eingabe)</translation>
         </message>
         <message>
             <source>The needle stays as it is and is scored</source>

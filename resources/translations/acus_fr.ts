@@ -12932,7 +12932,7 @@ hors du plan {c:+.1f}° (trajectoire {d:+.1f}°)</translation>
         </message>
         <message>
             <source>End attempt (Enter)</source>
-            <translation type="unfinished">Terminer l’essai (Entrée)</translation>
+            <translation type="unfinished">Terminer (Entrée)</translation>
         </message>
         <message>
             <source>The needle stays as it is and is scored</source>

@@ -750,3 +750,17 @@ def test_a_void_attempt_tells_what_the_students_plan_is_worth(page):
     assert "Your plan itself" not in page.card.words
     page.show_review(review(score=score(void=True)))
     assert "Your plan itself" not in page.card.words
+
+
+def test_numbers_of_the_axes_have_the_decimal_sign_of_the_language(qt):
+    use_language(qt, "de")
+    try:
+        view = CurvesView()
+        view.show_review(review())
+        while len(view._cursors) < len(view._curves):
+            view._draw_next()
+        for plot in view._plots:
+            for side in ("left", "bottom"):
+                assert plot.getAxis(side).tickStrings([0.5, 1.0], 1.0, 0.5) == ["0,5", "1,0"]
+    finally:
+        use_language(qt, "en")

@@ -234,6 +234,15 @@ def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
         plot.addItem(text, ignoreBounds=True)
 
 
+class LocalAxis(pg.AxisItem):
+    """An axis whose numbers have the decimal sign of the user's language."""
+
+    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:
+        """Return what stands at its ticks."""
+        sign = number(0.5, ".1f").strip("05")
+        return [text.replace(".", sign) for text in super().tickStrings(values, scale, spacing)]
+
+
 class PhaseName(pg.TextItem):
     """The name of a phase, in the middle of what is seen of it; hidden where it has no room.
 
@@ -383,7 +392,8 @@ class CurvesView(QWidget):
 
     def _new_plot(self, row: int, curve: Curve) -> pg.PlotItem:
         box = pg.ViewBox(enableMenu=False)  # the menus that nobody opens take most of the time
-        plot = self.graphics.addPlot(row=row, col=0, viewBox=box, enableMenu=False)
+        axes = {side: LocalAxis(side) for side in ("left", "bottom")}
+        plot = self.graphics.addPlot(row=row, col=0, viewBox=box, enableMenu=False, axisItems=axes)
         prepare(plot, curve, last=row == len(self._curves) - 1)
         box.sigXRangeChanged.connect(self._follow)
         return plot
