@@ -109,7 +109,7 @@ class WorldPace:
         passed = now - looks[0][0]
         if passed > 0.5 * OVER_S:
             share = (time - looks[0][1]) / passed
-            # A tenth of play, so that the words do not flicker between two shares.
-            if abs(share - self._share) > 0.1 or (share > NOTICED) != (self._share > NOTICED):
+            # More than half a tenth, so that the words do not flicker between two shares.
+            if abs(share - self._share) > 0.075 or (share > NOTICED) != (self._share > NOTICED):
                 self._share = 1.0 if share > NOTICED else max(0.1, round(share, 1))
         return self._share

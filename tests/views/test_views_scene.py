@@ -324,6 +324,7 @@ def shot(half=20.0, moving=False):
 
 
 def test_the_render_thread_answers_with_the_newest_request(surfaces):
+    before = set(threading.enumerate())
     renderer = SceneRenderer()
     renderer.open()
     renderer.open()
@@ -338,7 +339,7 @@ def test_the_render_thread_answers_with_the_newest_request(surfaces):
     assert renderer.take() is None
     renderer.close()
     renderer.close()
-    assert not [t for t in threading.enumerate() if t.name == "acus-scene"]
+    assert not {t for t in threading.enumerate() if t.name == "acus-scene"} - before
 
 
 def test_a_fault_in_the_3d_view_is_told_and_stops_only_it():
