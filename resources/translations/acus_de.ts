@@ -13337,16 +13337,16 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Roboter bereit</translation>
         </message>
         <message>
-            <source>the computer is too busy, close other programs</source>
-            <translation type="unfinished">der Computer ist zu ausgelastet, schließen Sie andere Programme</translation>
+            <source>computer busy, close programs</source>
+            <translation type="unfinished">Computer ausgelastet, Programme schließen</translation>
         </message>
         <message>
             <source>Robot held back: {why}</source>
             <translation type="unfinished">Roboter zurückgehalten: {why}</translation>
         </message>
         <message>
-            <source>Robot ready, computer busy: close other programs</source>
-            <translation type="unfinished">Roboter bereit, Computer ausgelastet: andere Programme schließen</translation>
+            <source>Computer busy: close programs</source>
+            <translation type="unfinished">Computer ausgelastet: Programme schließen</translation>
         </message>
         <message>
             <source>Robot stopped: {why}</source>

@@ -13337,16 +13337,16 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Robot prêt</translation>
         </message>
         <message>
-            <source>the computer is too busy, close other programs</source>
-            <translation type="unfinished">l’ordinateur est trop occupé, fermez d’autres programmes</translation>
+            <source>computer busy, close programs</source>
+            <translation type="unfinished">ordinateur occupé, fermez des programmes</translation>
         </message>
         <message>
             <source>Robot held back: {why}</source>
             <translation type="unfinished">Robot retenu : {why}</translation>
         </message>
         <message>
-            <source>Robot ready, computer busy: close other programs</source>
-            <translation type="unfinished">Robot prêt, ordinateur occupé : fermez d’autres programmes</translation>
+            <source>Computer busy: close programs</source>
+            <translation type="unfinished">Ordinateur occupé : fermez des programmes</translation>
         </message>
         <message>
             <source>Robot stopped: {why}</source>

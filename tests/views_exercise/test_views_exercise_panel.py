@@ -400,14 +400,14 @@ LATE = LoopFigures(700.0, 3e-3, 9e-3, 0.2, 400, 2000)
         (
             {"heartbeat": heartbeat_item(2.0)},
             Verdict.BAD,
-            "Robot stopped: the computer is too busy, close other programs",
+            "Robot stopped: computer busy, close programs",
         ),
         ({"guard_acts": True}, Verdict.WARNING, "Robot held back: it calms the needle"),
         ({"at_most": True}, Verdict.WARNING, "Robot held back: the depth is not certain"),
         (
             {"loop": loop_item(LATE)},
             Verdict.WARNING,
-            "Robot ready, computer busy: close other programs",
+            "Computer busy: close programs",
         ),
     ],
 )

@@ -214,7 +214,7 @@ def robot_item(
     elif encoders.verdict is Verdict.BAD:
         verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=tr("it does not answer"))
     elif heartbeat.verdict is Verdict.BAD:
-        why = tr("the computer is too busy, close other programs")
+        why = tr("computer busy, close programs")
         verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=why)
     elif guard_acts:
         verdict, words = (
@@ -229,7 +229,7 @@ def robot_item(
             tr("Robot held back: {why}", why=tr("the depth is not certain")),
         )
     elif Verdict.BAD in verdicts or Verdict.WARNING in verdicts:
-        verdict, words = Verdict.WARNING, tr("Robot ready, computer busy: close other programs")
+        verdict, words = Verdict.WARNING, tr("Computer busy: close programs")
     else:
         verdict, words = Verdict.GOOD, ready
     guard = tr("acts: the force is weakened or damped") if guard_acts else tr("at rest")
