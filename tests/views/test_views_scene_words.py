@@ -6,7 +6,7 @@ from PySide6.QtCore import QRect
 from PySide6.QtGui import QColor, QImage, QPainter
 
 from app.views.scene.display import ORGAN_COLOURS, Display
-from app.views.scene.words import draw_words, error_note
+from app.views.scene.words import COMPASS_PX, draw_words, error_note, note_place
 
 PANE = QRect(0, 0, 300, 160)
 
@@ -49,3 +49,11 @@ def test_in_a_narrow_pane_the_scale_of_the_tips_error_is_said_in_short(applicati
     said = [(written(Display(), (), pane, 10.0) > 60.0).any(axis=0) for pane in (wide, narrow)]
     ends = [int(np.flatnonzero(columns)[-1]) for columns in said]
     assert ends[1] < 180 - 8 < ends[0]
+
+
+def test_a_note_whose_word_has_no_room_beside_the_compass_stands_over_it():
+    pane = QRect(0, 0, 160, 220)
+    assert note_place(pane, 40).left() == 110
+    above = note_place(pane, 90)
+    assert above.width() >= 90
+    assert above.bottom() < pane.height() - COMPASS_PX + 1

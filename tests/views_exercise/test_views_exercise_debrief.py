@@ -28,7 +28,7 @@ from app.session.review import Correction, Span, TimeMark, marks, only_measured,
 from app.session.review import review as review_of
 from app.session.samples import Samples
 from app.views.debrief.card import costs, drill_title
-from app.views.debrief.curves import CurvesView, PhaseName, curves_of, peaks, time_end, value_range
+from app.views.debrief.curves import CurvesView, PhaseLabel, curves_of, peaks, time_end, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
 from app.views.debrief.score_words import (
@@ -727,7 +727,7 @@ def test_names_of_phases_stand_within_their_phases_and_never_on_each_other(qt, w
     view.show_review(review(spans=tuple(map(Span, states, ends[:-1], ends[1:]))))
     for _ in range(30):
         QApplication.processEvents()
-    names = [item for item in view._plots[0].items if isinstance(item, PhaseName)]
+    names = [item for item in view._plots[0].items if isinstance(item, PhaseLabel)]
     assert len(names) == len(states)
     boxes = sorted(
         (box.left(), box.right())

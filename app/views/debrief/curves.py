@@ -227,7 +227,7 @@ def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
     """Name the states below and the events above the first curve."""
     total = time_end(review.curves.time)
     for span in review.spans:
-        plot.addItem(PhaseName(span, low), ignoreBounds=True)
+        plot.addItem(PhaseLabel(span, low), ignoreBounds=True)
     for mark in review.marks:
         text = _mark_text(mark, mark.time / total)
         text.setPos(mark.time, high if mark.kind == "scan" else low)
@@ -243,7 +243,7 @@ class LocalAxis(pg.AxisItem):
         return [text.replace(".", sign) for text in super().tickStrings(values, scale, spacing)]
 
 
-class PhaseName(pg.TextItem):
+class PhaseLabel(pg.TextItem):
     """The name of a phase, in the middle of what is seen of it; hidden where it has no room.
 
     Args:

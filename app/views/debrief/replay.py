@@ -303,8 +303,11 @@ class ReplayBar(QWidget):
         for label in (slices, ghost):
             label.setProperty("role", "dim")
         self._choices.setSpacing(theme.SPACING // 2)
-        for row, parts in ((self._lies, (slices, self.along)),
-                           (self._beside, (ghost, self.ghost, self.by))):  # fmt: skip
+        rows: tuple[tuple[QHBoxLayout, tuple[QWidget, ...]], ...] = (
+            (self._lies, (slices, self.along)),
+            (self._beside, (ghost, self.ghost, self.by)),
+        )
+        for row, parts in rows:
             for part in parts:
                 row.addWidget(part, int(part is self.ghost))
             self._choices.addLayout(row, int(row is self._beside))

@@ -110,7 +110,20 @@ def draw_words(
         )
     painter.setPen(QColor(display.text))
     flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
-    painter.drawText(pane.adjusted(110, 0, -8, -6), flags | Qt.TextFlag.TextWordWrap, note)
+    letters = QFontMetrics(painter.font())
+    place = note_place(pane, max(map(letters.horizontalAdvance, note.split()), default=0))
+    painter.drawText(place, flags | Qt.TextFlag.TextWordWrap, note)
+
+
+def note_place(pane: QRect, longest: int) -> QRect:
+    """Return where a note stands: beside the compass, or over it where a word has no room there.
+
+    Args:
+        pane: its rectangle.
+        longest: width of the longest word [px].
+    """
+    beside = pane.adjusted(110, 0, -8, -6)
+    return beside if longest <= beside.width() else pane.adjusted(LEFT, 0, -LEFT, -COMPASS_PX)
 
 
 def title(display: Display) -> str:
