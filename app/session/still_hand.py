@@ -36,7 +36,7 @@ class HandPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class _Held:
+class _Pinned:
     """The hand in a pause: where it began, where it is, and where the cameras last saw the needle;
     None where nothing may move it.
     """
@@ -51,7 +51,7 @@ class StillHand:
 
     def __init__(self, inputs: LoopInputs) -> None:
         self._inputs = inputs
-        self._held: _Held | None = None
+        self._held: _Pinned | None = None
         self._seen: HandPlace | None = None
         self._places: deque[tuple[float, HandPlace]] = deque()
 
@@ -98,7 +98,7 @@ class StillHand:
                 return
             at = _place(device, simulated)
             seen = (self._seen or at) if cause is PauseCause.CAMERAS else None
-            held = self._held = _Held(at, at, seen)
+            held = self._held = _Pinned(at, at, seen)
         self._write(held.at)  # again and again: somebody may have moved it as the pause began
 
     def _remember(self, pose: NeedlePose, place: HandPlace) -> None:
