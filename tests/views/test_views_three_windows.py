@@ -32,6 +32,7 @@ from app.views.people.feature import PeopleFeature
 from app.views.robot.feature import RobotFeature
 from app.views.shell.feature import Feature
 from app.views.shell.features import FEATURES
+from app.views.shell.help import HelpWindow
 from app.views.shell.window import MainWindow
 
 FORBIDDEN = re.compile(
@@ -397,3 +398,39 @@ def test_what_was_said_to_a_technician_is_not_said_to_the_student_after_him(wind
     window.message_bar.show_error("run acus device emulate")
     window.roles.choose(Role.STUDENT)
     assert window.message_bar.isHidden()
+
+
+def test_a_dialog_of_the_role_before_closes_with_it_and_a_page_of_help_stays(window):
+    window.roles.choose(Role.TECHNICIAN)
+    checks = window.feature(ChecksFeature)
+    checks.open_daily()
+    page = HelpWindow("user-guide", "", window)
+    page.show()
+    assert checks.daily.isVisible()
+    window.roles.choose(Role.STUDENT)
+    assert not checks.daily.isVisible()
+    assert page.isVisible()
+    page.close()
+    window.roles.choose(Role.TECHNICIAN)
+    checks.open_daily()
+    assert checks.daily.isVisible()
+
+
+def test_two_windows_that_insist_on_their_own_roles_end(application):
+    heard = []
+
+    def insist(role):
+        def follow():
+            heard.append(role)
+            ACCESS.take_role(role)
+
+        return follow
+
+    listeners = [insist(Role.STUDENT), insist(Role.INSTRUCTOR)]
+    for listener in listeners:
+        ACCESS.changed.connect(listener)
+    ACCESS.take_role(Role.STUDENT)
+    for listener in listeners:
+        ACCESS.changed.disconnect(listener)
+    assert ACCESS.role is Role.STUDENT
+    assert len(heard) == len(listeners)

@@ -26,6 +26,7 @@ class Access(QObject):
         super().__init__()
         self._visitor = Visitor()
         self._role = Role.TECHNICIAN
+        self._taking = False
 
     @property
     def role(self) -> Role:
@@ -33,10 +34,18 @@ class Access(QObject):
         return self._role
 
     def take_role(self, role: Role) -> None:
-        """Somebody sits here in another role."""
-        if role is not self._role:
-            self._role = role
+        """Somebody sits here in another role.
+
+        Who hears of it and insists on another is not heard: a window that goes while the next one
+        stands already would contradict it without end.
+        """
+        if role is self._role or self._taking:
+            return
+        self._role, self._taking = role, True
+        try:
             self.changed.emit()
+        finally:
+            self._taking = False
 
     @property
     def student(self) -> Person | None:

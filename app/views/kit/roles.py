@@ -21,6 +21,9 @@ EVERYBODY: Final = frozenset(Role)
 STAFF: Final = frozenset({Role.INSTRUCTOR, Role.TECHNICIAN})
 TECHNICIANS: Final = frozenset({Role.TECHNICIAN})
 
+EVERYBODYS: Final = "everybodys"
+"""Property of a dialog that stays open when somebody sits here in another role."""
+
 
 def role_named(text: object, otherwise: Role) -> Role:
     """Return the role that a text names, or another where it names none."""

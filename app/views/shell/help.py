@@ -49,6 +49,7 @@ from app.core.log_file import crash_text, tail
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, label, size_dialog
+from app.views.kit.roles import EVERYBODYS
 from app.views.kit.text import disclaimer, in_english, literal, tr
 from app.views.shell.application import icon
 from app.views.shell.feature import Feature
@@ -382,6 +383,7 @@ class HelpWindow(QDialog):
 
     def __init__(self, name: str, heading: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.setProperty(EVERYBODYS, True)
         self.asked, self._heading = (name, heading), heading
         self.setWindowTitle(tr("User guide"))
         size_dialog(self, 900, 700)

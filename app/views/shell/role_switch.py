@@ -11,12 +11,13 @@ from typing import Final
 
 from PySide6.QtCore import QObject, QSettings, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QActionGroup
-from PySide6.QtWidgets import QMenu, QMenuBar, QToolButton
+from PySide6.QtWidgets import QDialog, QMenu, QMenuBar, QToolButton
 
 from app.views.exercise.controller import ExerciseController
 from app.views.kit.access import ACCESS
 from app.views.kit.roles import (
     EVERYBODY,
+    EVERYBODYS,
     STAFF,
     Role,
     first_role,
@@ -133,10 +134,17 @@ class RoleSwitch(QObject):
         return Role.STUDENT if ACCESS.student is not None or closed else self._wanted
 
     def _apply(self, role: Role) -> None:
+        self._close_dialogs()
         self._shell.owned.show(role)
         ACCESS.take_role(role)
         self._show_chosen()
         self.changed.emit()
+
+    def _close_dialogs(self) -> None:
+        """Close what the role before had open beside the window; a page of help is everybody's."""
+        for dialog in self._bar.window().findChildren(QDialog):
+            if dialog.isVisible() and not dialog.isModal() and not dialog.property(EVERYBODYS):
+                dialog.close()
 
     def _show_chosen(self) -> None:
         title = role_title(self.role)
