@@ -31,12 +31,19 @@ def slow(times: float) -> PacedClock:
 
 
 def rig_of(
-    name: str, clock: PacedClock, folder: Path, skill: str | None = "expert", seed: int = 1
+    name: str,
+    clock: PacedClock,
+    folder: Path,
+    skill: str | None = "expert",
+    seed: int = 1,
+    led: bool = False,
 ) -> Rig:
     exercise = layered(name)
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     return build_rig(
-        TrainerSetup(exercise, placed, skill=skill, seed=seed, sessions=folder, clock=clock)
+        TrainerSetup(
+            exercise, placed, skill=skill, seed=seed, sessions=folder, clock=clock, led=led
+        )
     )
 
 
@@ -136,7 +143,7 @@ def test_a_hand_that_the_window_leads_step_by_step_is_waited_for(tmp_path: Path)
     """As the arm's is: at 20 times the wall's pace a step of 20 ms comes every 0.4 s."""
     results = []
     for times in (2.0, 20.0):
-        rig = rig_of("first-insertion", slow(times), tmp_path / f"{times:g}", skill=None)
+        rig = rig_of("first-insertion", slow(times), tmp_path / f"{times:g}", skill=None, led=True)
         results.append(by_threads(rig, _lead))
     first, second = (total_of(result) for result in results)
     assert first == pytest.approx(second, abs=POINTS)
@@ -219,3 +226,28 @@ def test_a_window_that_is_gone_for_good_lets_time_go_on_and_the_force_off(
         wait(lambda: rig.loop.latest().row[sv.ENABLED] == 0.0)
     finally:
         rig.close()
+
+
+def test_a_person_s_world_leaves_pictures_out_before_it_gets_slower(tmp_path: Path) -> None:
+    """At 30 times the wall's pace a pair of pictures takes far longer than its share."""
+    speeds, apart = [], []
+    for led in (True, False):
+        rig = rig_of("first-insertion", slow(30.0), tmp_path, skill=None, led=led)
+        rig.trainer.open()
+        try:
+            wait(lambda rig=rig: rig.trainer.snapshot().pose.measured)
+            began, wall = rig.trainer.time, time.monotonic()
+            times: list[float] = []
+            while time.monotonic() < wall + 4.0:
+                stamped = rig.tracker.latest.read()
+                if stamped is not None and (not times or stamped.value.time != times[-1]):
+                    times.append(stamped.value.time)
+                rig.trainer.heartbeat()
+                time.sleep(0.001)
+            speeds.append((rig.trainer.time - began) / (time.monotonic() - wall))
+            apart.append(float(np.diff(times).max()))
+        finally:
+            rig.close()
+    assert speeds[1] > 1.25 * speeds[0]
+    assert apart[0] < 1.5 / 30.0
+    assert apart[1] < 0.2  # the depth is never lost for it

@@ -189,7 +189,7 @@ def _show(
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     trainee = skill.value if leader is None else None
-    window = open_window(Desktop(trainee, seed, sessions, (shown,)))
+    window = open_window(Desktop(trainee, seed, sessions, (shown,), led=leader is not None))
     if pen:
         window.equipment.take_pen("simulated")
     else:

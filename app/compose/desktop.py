@@ -79,6 +79,7 @@ class Desktop:
         seed: of everything random; None takes each exercise's own.
         sessions: folder of the records.
         besides: exercises of other files; each stands for one of its name in the library.
+        led: whether a program leads the hand in every run, which time waits for.
     """
 
     def __init__(
@@ -87,8 +88,10 @@ class Desktop:
         seed: int | None = None,
         sessions: Path | None = None,
         besides: tuple[Exercise, ...] = (),
+        led: bool = False,
     ) -> None:
         self._skill, self._seed, self._besides = skill, seed, besides
+        self._led = led
         self._sessions = sessions or paths.sessions()
         self._kernels = TrackerKernels()
 
@@ -232,6 +235,7 @@ class Desktop:
             # Each start is another one; who asks for a seed has the same again.
             hand_seed=randbits(32) if self._seed is None else None,
             script=None if shown is None else shown.script(setup.placed),
+            led=self._led,
         )
         with moving(progress.part(0.6, 0.8), _compiling):
             rig = build_rig(trainer)

@@ -59,7 +59,7 @@ from app.tracking.cameras.settings import CameraSettings
 from app.tracking.errors import TrackingError
 from app.tracking.motion.depth_filter import FASTEST
 from app.tracking.needle_tracker import NeedleTracker, StereoAbilities
-from app.tracking.optics.rig import load_rig
+from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.paced import PacedFixes
 from app.tracking.tracker import Tracker
 
@@ -95,6 +95,7 @@ class TrainerSetup:
         risks: structures that the needle has to keep away from.
         tissues: field of the patient: tells what the needle met, and is what the loop looks into
             where the exercise's tissue is the field; None for none.
+        led: whether another program leads the hand step by step, as the arm's demonstration does.
         hand_seed: of where a simulated hand begins and how it trembles, which attempts record;
             None takes `seed`.
     """
@@ -114,6 +115,12 @@ class TrainerSetup:
     tissues: TissueField | None = None
     hand_seed: int | None = None
     script: TraineeScript | None = None
+    led: bool = False
+
+    @property
+    def by_program(self) -> bool:
+        """Return whether no person moves the hand, so that the run is to be the same anywhere."""
+        return self.led or self.skill is not None or self.script is not None
 
     def bound_field(self) -> BoundField | None:
         """Return the field in the robot's frame; None of an exercise whose tissue lies in layers.
@@ -288,7 +295,7 @@ def _build_rig(
         on_fix=lambda fix: trainer.on_fix(fix),
         force=felt_force(loop),
         colour=cameras.colour,
-        paced=PacedFixes(setup.clock, cameras.rig) if isinstance(setup.clock, PacedClock) else None,
+        paced=_paced_fixes(setup, cameras.rig),
     )
     trainer = Trainer(
         loop,
@@ -305,9 +312,15 @@ def _build_rig(
         start=Start.SIMULATED if robot is None else Start.REAL,
         beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
         simulated=robot is None and real is None,
-        scripted=setup.skill is not None or setup.script is not None,
+        scripted=setup.by_program,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
+
+
+def _paced_fixes(setup: TrainerSetup, rig: RigProfile) -> PacedFixes | None:
+    if not isinstance(setup.clock, PacedClock):
+        return None
+    return PacedFixes(setup.clock, rig, every=setup.by_program)
 
 
 def beginnings_of(setup: TrainerSetup, profile: DeviceProfile) -> Beginnings:
