@@ -451,7 +451,7 @@ def test_skills_and_hands_at_the_window_meet_the_layers_of_the_ct(monkeypatch):
     monkeypatch.setattr(pointer_trial, "pointer_attempt", quick)
     mouse, careful = pointer_trial.pointer_outcomes(drawn, 3)
     assert met == [(name, seed, there) for name in ("hasty", "careful") for seed in (1, 2, 3)]
-    assert (mouse.skill, careful.skill, mouse.void, mouse.duration) == ("mouse", "careful", 3, 20.0)
+    assert (mouse.skill, careful.skill, mouse.void, mouse.duration) == ("hasty", "careful", 3, 20.0)
 
     class Quick:
         def __init__(self, exercise, *rest):

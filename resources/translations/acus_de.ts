@@ -13637,8 +13637,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pause: Die simulierten Kameras sehen die Nadel dort nicht. Bewegen Sie sie ein wenig zurück.</translation>
         </message>
         <message>
-            <source>Paused: this computer is too busy. Close other programs; it goes on by itself.</source>
-            <translation type="unfinished">Pause: Dieser Computer ist zu ausgelastet. Schließen Sie andere Programme; es geht von selbst weiter.</translation>
+            <source>Paused: this computer is too busy. Close other programs to go on.</source>
+            <translation type="unfinished">Pause: Dieser Computer ist ausgelastet. Zum Fortfahren andere Programme schließen.</translation>
         </message>
         <message>
             <source>Ended: the score is being worked out</source>

@@ -13637,8 +13637,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En pause : les caméras simulées ne voient pas l’aiguille à cet endroit. Ramenez-la un peu en arrière.</translation>
         </message>
         <message>
-            <source>Paused: this computer is too busy. Close other programs; it goes on by itself.</source>
-            <translation type="unfinished">En pause : cet ordinateur est trop occupé. Fermez d’autres programmes ; l’essai reprend de lui-même.</translation>
+            <source>Paused: this computer is too busy. Close other programs to go on.</source>
+            <translation type="unfinished">En pause : cet ordinateur est trop occupé. Fermez d’autres programmes pour continuer.</translation>
         </message>
         <message>
             <source>Ended: the score is being worked out</source>

@@ -29,7 +29,7 @@ def german(tmp_path, monkeypatch, application):
     """A folder of languages with German in it."""
     monkeypatch.setenv("ACUS_CACHE", str(tmp_path / "cache"))
     (tmp_path / "acus_de.ts").write_text(GERMAN)
-    monkeypatch.setattr(language, "folder", lambda: tmp_path)
+    monkeypatch.setattr("app.core.language.folder", lambda: tmp_path)
     yield
     language.use_language(application, "en")
 

@@ -123,15 +123,16 @@ def test_what_the_status_strip_said_in_usual_text_has_room_in_large_text(
     strip.close()
 
 
-def test_in_the_smallest_window_every_title_of_the_status_strip_is_whole_in_large_text(
-    application, desk_again, settle
+@pytest.mark.parametrize(("width", "size"), [(SMALLEST[0], 1.0), (1180, theme.LARGE)])
+def test_in_a_small_window_every_title_of_the_status_strip_is_whole(
+    application, desk_again, settle, width, size
 ):
-    theme.apply_theme(application, DARK, theme.LARGE)
+    theme.apply_theme(application, DARK, size)
     strip, item = StatusStrip(), depth_item("tracked", 0.01)
     titles = ("Screen and needle", "Robot loop", "Encoders", "Cameras", "Depth", "Heartbeat")
     said = "1012 Hz · late 0.04 / 0.12 ms · 0.2 % missed"
     strip.show_items([replace(item, title=one, text=said) for one in (*titles, "Recorder")])
-    strip.setFixedWidth(SMALLEST[0])
+    strip.setFixedWidth(width)
     strip.show()
     settle(timeout=0.1)
     cells = [cell for cell in strip.findChildren(StatusCell) if cell.isVisible()]

@@ -326,7 +326,7 @@ def test_an_attempt_that_waits_for_the_computer_blames_the_computer_in_large_let
         breath=BreathHold(asked=True, held=True, left=3.0),
     )
     window.conductor.controller.snapshot_taken.emit(waits)
-    words = "Paused: this computer is too busy. Close other programs; it goes on by itself."
+    words = "Paused: this computer is too busy. Close other programs to go on."
     assert settle(lambda: line.text() == words)
     assert line.fontMetrics().horizontalAdvance(words) < line.width()
     window.conductor.controller.snapshot_taken.emit(replace(waits, pause=PauseCause.CAMERAS))

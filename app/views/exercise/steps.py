@@ -116,7 +116,7 @@ def _pause_words(cause: PauseCause | None) -> str:
         return tr(
             "One moment: this computer is busy and its pictures come late. Close other programs."
         )
-    return tr("Paused: this computer is too busy. Close other programs; it goes on by itself.")
+    return tr("Paused: this computer is too busy. Close other programs to go on.")
 
 
 def ending_words() -> str:

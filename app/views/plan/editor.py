@@ -23,7 +23,7 @@ from app.planning.plan import Plan
 from app.views.kit.access import ACCESS
 from app.views.kit.names import NAMES
 from app.views.kit.roles import Role
-from app.views.kit.text import declared, tr, translated
+from app.views.kit.text import declared, literal, tr, translated
 from app.views.shell.settings import Recents
 from app.views.slices.viewing import Tool
 
@@ -101,7 +101,7 @@ class PlanFiles(QObject):
             )
             choices = buttons.Save | buttons.Discard | buttons.Cancel
         # Enter, perhaps meant for the page, writes nothing and throws nothing away.
-        answer = QMessageBox.question(self._window, title, words, choices, buttons.Cancel)
+        answer = QMessageBox.question(self._window, title, literal(words), choices, buttons.Cancel)
         if answer == buttons.Save:
             return self.save()
         return answer == buttons.Discard
