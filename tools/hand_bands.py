@@ -2,12 +2,10 @@
 
     python -m tools.hand_bands [EXERCISE…] --fit 9000 9020 --check 8000 8020 --file attempts.jsonl
 
-By contrasting groups (Livingston and Zieky 1982): attempts of a careful script and of a hasty one,
-who look and act through the same hand (`compose.pointer_hands`). Of each metric that says how the
-needle went, not where it ended: expert is what 80 % of the careful ones keep; pass is the value
-that parts the two groups with the fewest on the wrong side, the middle where several do; good is
-half-way; zero is the hasty ones' median. Where the hasty are no worse (they are quick), nothing
-parts them: the tolerance stays. These are scripts: nobody has been measured.
+By contrasting groups (`scoring.contrasting`): attempts of a careful script and of a hasty one, who
+look and act through the same hand (`compose.pointer_hands`), of each metric that says how the
+needle went, not where it ended. Where the hasty are no worse (they are quick), nothing parts them:
+the tolerance stays. These are scripts; attempts of people give bands by `acus exercise bands`.
 
 Attempts are kept in the file, a line each, and not done again. Where bands would let the hasty come
 above or the careful below what the exercise is meant to give (`MOST`, `LEAST`), the stricter of
@@ -20,7 +18,6 @@ import argparse
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
 
@@ -31,15 +28,13 @@ from app.compose.skill_scores import Resolved, risks_of
 from app.exercises.hand_bands import BandsSource, HandBands, judged_by_hand
 from app.exercises.library import load_exercise
 from app.exercises.schema import Exercise
+from app.scoring.contrasting import contrasted
 from app.scoring.result import Score
 from app.scoring.rows import REACHING
 from app.scoring.tolerance import Bands
 
 EXERCISES: Final = ("first-insertion", "kidney", "breathing-liver")
 CAREFUL, HASTY = "careful", "hasty"
-KEPT_SHARE: Final = 80.0
-"""So many of a hundred careful attempts are an expert's."""
-
 MOST: Final = {1: 80.0, 2: 80.0}
 """Most that the hasty may have in the median, by level."""
 
@@ -48,33 +43,6 @@ MOST_ABOVE: Final = 70.0
 
 LEAST: Final = 90.0
 """Least that the careful must have in the median."""
-
-
-def fitted(careful: Sequence[float], hasty: Sequence[float]) -> Bands | None:
-    """Return bands of a metric of which less is better; None where nothing parts the two groups.
-
-    Args:
-        careful: values of the ones, one at least.
-        hasty: of the others.
-    """
-    good, bad = np.sort(np.abs(careful)), np.sort(np.abs(hasty))
-    expert, zero = float(np.percentile(good, KEPT_SHARE)), float(np.median(bad))
-    both = np.unique(np.concatenate([good, bad]))
-    cuts = 0.5 * (both[:-1] + both[1:])
-    if not len(cuts):
-        return None
-    wrong = [(good > cut).mean() + (bad <= cut).mean() for cut in cuts]
-    least = np.flatnonzero(np.isclose(wrong, min(wrong)))
-    passing = float(cuts[least[len(least) // 2]])
-    knots = [_rounded(one) for one in (expert, 0.5 * (expert + passing), passing, zero)]
-    if min(wrong) >= 0.5 or not all(a < b for a, b in pairwise(knots)):
-        return None
-    return Bands.model_validate(dict(zip(("expert", "good", "pass", "zero"), knots, strict=True)))
-
-
-def _rounded(value: float) -> float:
-    """Round to two significant digits."""
-    return float(f"{value:.1e}")
 
 
 def attempts(file: Path, names: Sequence[str], seeds: Sequence[int]) -> None:
@@ -127,7 +95,7 @@ def proposed(exercise: Exercise, careful: Sequence[Score], hasty: Sequence[Score
         if name in REACHING or limits.higher_is_better or not limits.weight:
             continue
         groups = [_values(group, name) for group in (careful, hasty)]
-        bands = fitted(*groups) if all(groups) else None
+        bands = contrasted(*groups) if all(groups) else None
         spans = " | ".join(map(_quantiles, groups))
         print(f"  {name}: {spans} -> {_words(bands)}")
         if bands is not None:

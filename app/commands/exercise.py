@@ -9,6 +9,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
+from app.commands.exercise_bands import Name, bands
 from app.commands.reader_language import template
 from app.commands.shown import Each
 from app.core.messages import joined, sentence, sentence_of
@@ -18,18 +19,12 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
 
-app = Commands(help="Exercises: list, new, validate, schema, pack, unpack, trial.")
+app = Commands(help="Exercises: list, new, validate, suggest, bands, schema, pack, unpack, trial.")
 
-Name = Annotated[
-    str,
-    typer.Argument(
-        metavar="EXERCISE",
-        autocompletion=completion.exercises,
-        help="Name, name@version, or file of an exercise.",
-    ),
-]
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 
+
+app.command()(bands)
 
 RANK = 190
 

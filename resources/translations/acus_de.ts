@@ -18694,6 +18694,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} people</source>
+            <translation type="unfinished">
+                <numerusform>{n} Person</numerusform>
+                <numerusform>{n} Personen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
                 <numerusform>{n} Region {reason} ausgelassen: Die Datei sagt nicht, was sie ist</numerusform>
@@ -19502,6 +19509,34 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{kind} should have at most {items} items after validation, not {n}</source>
             <translation type="unfinished">die Liste ({kind}) darf höchstens {items} Einträge haben, nicht {n}</translation>
+        </message>
+        <message>
+            <source>--title keeps a new exercise and --save a new version: give one of them</source>
+            <translation type="unfinished">--title behält eine neue Übung, --save eine neue Version: geben Sie eines von beiden an</translation>
+        </message>
+        <message>
+            <source>everybody else</source>
+            <translation type="unfinished">alle anderen</translation>
+        </message>
+        <message>
+            <source>{exercise}, version {version}, {hand}: {experienced.people} experienced people ({experienced.attempts} attempts), {others.people} others ({others.attempts})</source>
+            <translation type="unfinished">{exercise}, Version {version}, {hand}: {experienced.people} Erfahrene ({experienced.attempts} Versuche), {others.people} andere ({others.attempts})</translation>
+        </message>
+        <message>
+            <source>{}: the others are no worse, its tolerance stays</source>
+            <translation type="unfinished">{}: die anderen sind nicht schlechter, die Toleranz bleibt</translation>
+        </message>
+        <message>
+            <source>{kept:?kept: {kept.id}, version {kept.version}|not kept: --save or --title}</source>
+            <translation type="unfinished">{kept:?behalten: {kept.id}, Version {kept.version}|nicht behalten: --save oder --title}</translation>
+        </message>
+        <message>
+            <source>{people} of {group} have attempts at {exercise}, version {version}, by {hand} that count: bands need {least} at least</source>
+            <translation type="unfinished">{group}: {people} mit Versuchen an {exercise}, Version {version}, mit {hand}, die zählen; Bänder brauchen mindestens {least}</translation>
+        </message>
+        <message>
+            <source>nothing parts {experienced} from {others} in {exercise}: of no metric that says how the needle went are the others worse; its tolerances stay</source>
+            <translation type="unfinished">nichts trennt {experienced} und {others} in {exercise}: in keiner Metrik über den Weg der Nadel sind die anderen schlechter; die Toleranzen bleiben</translation>
         </message>
     </context>
 </TS>

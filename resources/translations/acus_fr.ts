@@ -18694,6 +18694,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} people</source>
+            <translation type="unfinished">
+                <numerusform>{n} personne</numerusform>
+                <numerusform>{n} personnes</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
                 <numerusform>{n} région {reason} écartée : le fichier ne dit pas ce qu’elle est</numerusform>
@@ -19502,6 +19509,34 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{kind} should have at most {items} items after validation, not {n}</source>
             <translation type="unfinished">la liste ({kind}) doit avoir au plus {items} éléments, pas {n}</translation>
+        </message>
+        <message>
+            <source>--title keeps a new exercise and --save a new version: give one of them</source>
+            <translation type="unfinished">--title garde un nouvel exercice et --save une nouvelle version : indiquez l’un des deux</translation>
+        </message>
+        <message>
+            <source>everybody else</source>
+            <translation type="unfinished">tous les autres</translation>
+        </message>
+        <message>
+            <source>{exercise}, version {version}, {hand}: {experienced.people} experienced people ({experienced.attempts} attempts), {others.people} others ({others.attempts})</source>
+            <translation type="unfinished">{exercise}, version {version}, {hand} : {experienced.people} personnes expérimentées ({experienced.attempts} essais), {others.people} autres ({others.attempts})</translation>
+        </message>
+        <message>
+            <source>{}: the others are no worse, its tolerance stays</source>
+            <translation type="unfinished">{} : les autres ne font pas moins bien, la tolérance reste</translation>
+        </message>
+        <message>
+            <source>{kept:?kept: {kept.id}, version {kept.version}|not kept: --save or --title}</source>
+            <translation type="unfinished">{kept:?gardé : {kept.id}, version {kept.version}|non gardé : --save ou --title}</translation>
+        </message>
+        <message>
+            <source>{people} of {group} have attempts at {exercise}, version {version}, by {hand} that count: bands need {least} at least</source>
+            <translation type="unfinished">{group} : {people} avec des essais de {exercise}, version {version}, par {hand}, qui comptent ; il en faut {least} au moins pour des bandes</translation>
+        </message>
+        <message>
+            <source>nothing parts {experienced} from {others} in {exercise}: of no metric that says how the needle went are the others worse; its tolerances stay</source>
+            <translation type="unfinished">rien ne sépare {experienced} et {others} dans {exercise} : aucune mesure du trajet de l’aiguille n’est moins bonne chez les autres ; les tolérances restent</translation>
         </message>
     </context>
 </TS>

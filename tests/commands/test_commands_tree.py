@@ -21,7 +21,7 @@ NEEDS_MORE = {
     "calibrate export", "calibrate import", "calibrate mono", "calibrate redo", "calibrate reject",
     "calibrate show", "calibrate stereo", "calibrate undo", "calibrate use", "calibrate views",
     "calibrate world", "ct digest", "ct import", "ct list", "ct path", "ct point",
-    "device calibrate", "device show", "exercise pack", "exercise trial", "exercise unpack",
+    "device calibrate", "device show", "exercise bands", "exercise pack", "exercise trial", "exercise unpack",
     "device test", "pacs echo", "pacs find", "pacs get", "pacs move",
     "pen calibrate", "registration check", "session compare", "session replay", "session show",
     "session verify", "structures distance", "structures export", "structures list",

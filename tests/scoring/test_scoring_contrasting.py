@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tools.hand_bands import fitted
+from app.scoring.contrasting import contrasted
 
 RNG = np.random.default_rng(28)
 
@@ -11,7 +11,7 @@ RNG = np.random.default_rng(28)
 def test_pass_lies_where_two_groups_part() -> None:
     """Careful 0.1 to 0.5, hasty 1.5 to 4.5: any value between parts them; the middle is taken."""
     careful, hasty = np.linspace(0.1, 0.5, 21), np.linspace(1.5, 4.5, 21)
-    bands = fitted(careful, hasty)
+    bands = contrasted(careful, hasty)
     assert bands is not None
     assert bands.expert == pytest.approx(0.42)  # 80 % of them
     assert bands.pass_ == pytest.approx(1.0)
@@ -23,7 +23,7 @@ def test_of_two_groups_that_overlap_as_few_as_can_be_are_on_the_wrong_side() -> 
     """Two normal distributions of one width: they part half-way between their means."""
     careful = np.abs(RNG.normal(2.0, 0.5, 4000))
     hasty = np.abs(RNG.normal(4.0, 0.5, 4000))
-    bands = fitted(careful, hasty)
+    bands = contrasted(careful, hasty)
     assert bands is not None
     assert bands.pass_ == pytest.approx(3.0, abs=0.15)
     assert bands.expert == pytest.approx(2.0 + 0.5 * 0.8416, abs=0.1)  # 80 % point of a normal one
@@ -31,10 +31,10 @@ def test_of_two_groups_that_overlap_as_few_as_can_be_are_on_the_wrong_side() -> 
 
 def test_the_sign_of_a_value_does_not_count() -> None:
     careful, hasty = [-0.1, 0.2, -0.3], [-2.0, 3.0, 4.0]
-    assert fitted(careful, hasty) == fitted(np.abs(careful), np.abs(hasty))
+    assert contrasted(careful, hasty) == contrasted(np.abs(careful), np.abs(hasty))
 
 
 @pytest.mark.parametrize("hasty", [[9.0, 10.0, 11.0], [33.0, 34.0, 35.0]])
 def test_where_the_hasty_are_no_worse_there_are_no_bands(hasty: list[float]) -> None:
     """They are quick: time says nothing of care."""
-    assert fitted([33.0, 34.0, 35.0], hasty) is None
+    assert contrasted([33.0, 34.0, 35.0], hasty) is None
