@@ -18,6 +18,8 @@ from app.session.result import AttemptResult
 from app.session.ticker import SLOWED
 from app.simulation.hands import Script
 from app.simulation.trainee import ScriptPhase
+from app.tracking.optics.rig import load_rig
+from app.tracking.simulated.paced import PacedFixes
 from tests.layered import layered
 
 POINTS = 0.5
@@ -251,3 +253,18 @@ def test_a_person_s_world_leaves_pictures_out_before_it_gets_slower(tmp_path: Pa
     assert speeds[1] > 1.25 * speeds[0]
     assert apart[0] < 1.5 / 30.0
     assert apart[1] < 0.2  # the depth is never lost for it
+
+
+def test_a_person_does_not_wait_for_the_first_picture_of_a_start() -> None:
+    """A start may compile for a minute: seen, a needle that stood for 60 s before its way out."""
+    for every in (True, False):
+        clock = slow(1.0)
+        paced = PacedFixes(clock, load_rig("wide"), every)
+        paced.begin()
+        clock.start()
+        gone, end = 0.0, time.monotonic() + 1.0
+        while time.monotonic() < end:
+            if step := clock.grant(0.001):
+                clock.advance(step)
+                gone += step
+        assert (gone < 0.2) is every

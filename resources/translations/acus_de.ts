@@ -11705,6 +11705,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Üben: {drill}</translation>
         </message>
         <message>
+            <source>Nothing cost as much as a point.</source>
+            <translation type="unfinished">Nichts kostete auch nur einen Punkt.</translation>
+        </message>
+        <message>
             <source>Nothing cost points.</source>
             <translation type="unfinished">Nichts hat Punkte gekostet.</translation>
         </message>

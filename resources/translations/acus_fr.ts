@@ -11705,6 +11705,10 @@ Lettres : directions du patient
             <translation type="unfinished">S’exercer : {drill}</translation>
         </message>
         <message>
+            <source>Nothing cost as much as a point.</source>
+            <translation type="unfinished">Rien n’a coûté ne serait-ce qu’un point.</translation>
+        </message>
+        <message>
             <source>Nothing cost points.</source>
             <translation type="unfinished">Rien n’a coûté de points.</translation>
         </message>

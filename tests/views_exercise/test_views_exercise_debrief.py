@@ -670,6 +670,9 @@ def test_who_lost_nothing_is_told_so_and_who_was_not_judged_nothing(page):
     assert costs(review(score=None)) == ()
     page.show_review(review(score=all_expert(score())))
     assert page.card.words == "Nothing cost points."
+    nearly = replace(all_expert(score()), total=99.4)
+    page.show_review(review(score=nearly))
+    assert page.card.words == "Nothing cost as much as a point."
     page.show_review(review(score=None))
     assert page.card.words == ""
 

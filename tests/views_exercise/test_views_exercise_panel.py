@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QImage, QKeyEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLineEdit
 from views_exercise_fakes import snapshot, statistics
 
 from app.core import state_vector as sv
@@ -137,6 +138,29 @@ def test_escape_held_while_the_window_stood_still_aborts_by_the_events_own_clock
             event.setTimestamp(time)
             QCoreApplication.sendEvent(panel, event)  # both at once, as after a standstill
         assert len(aborted) == count
+
+
+def test_escape_is_heard_where_another_part_of_the_window_keeps_its_keys_to_itself(panel):
+    """As the menu bar does with the keys of a button in its corner that has the focus."""
+
+    class Deaf(QLineEdit):
+        def event(self, event):
+            event.accept()
+            return True
+
+    aborted = []
+    panel.buttons.abort_requested.connect(lambda: aborted.append(1))
+    panel.buttons.watch(panel)
+    panel.show_figures(live(State.INSERTING))
+    deaf = Deaf(panel)
+    deaf.show()
+    deaf.setFocus()
+    for kind, time in ((QEvent.Type.KeyPress, 1000), (QEvent.Type.KeyRelease, 1000 + HOLD_MS)):
+        event = QKeyEvent(kind, Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier)
+        event.setTimestamp(time)
+        QCoreApplication.sendEvent(panel.windowHandle(), event)
+    assert aborted == [1]
+    deaf.deleteLater()
 
 
 def test_a_pseudonym_cannot_hold_what_a_file_name_must_not(panel):

@@ -29,12 +29,17 @@ class PacedFixes:
     def __init__(self, clock: PacedClock, rig: RigProfile, every: bool = True) -> None:
         self._clock = clock
         self._delay = (rig.latency_ms + abs(rig.skew_ms)) * MILLISECOND + PROCESSING
+        self._every = every
         self._period = 1.0 / rig.rate_hz if every else max(MAY_MISS, 1.0 / rig.rate_hz)
         self._hold = clock.hold("cameras")
 
     def begin(self) -> None:
-        """Hold time until the first fix is due: the cameras are opened."""
-        self._hold.until(self._clock.now() + self._period + self._delay)
+        """Hold time until the first fix is due, where none may be left out: the cameras are opened.
+
+        A person does not wait for it: the first pictures of a start may take a minute of compiling.
+        """
+        if self._every:
+            self._hold.until(self._clock.now() + self._period + self._delay)
 
     def wait(self, fix: NeedleFix) -> None:
         """Wait until a fix is due."""

@@ -40,6 +40,9 @@ HELD_BACK: Final = 0.95
 LEAST_REST: Final = 0.5
 """Fewer points than this are no rest, but the rounding of the others."""
 
+FULL: Final = 99.5
+"""From so many points on all hundred are shown."""
+
 MOST_REASONS: Final = 3
 """So many sentences are told of one."""
 
@@ -282,7 +285,9 @@ class DebriefCard(QFrame):
         score = review.score
         given = costs(review)
         if not given and score is not None and score.total is not None:
-            given = (Cost(tr("Nothing cost points.")),)
+            whole = score.total >= FULL
+            words = tr("Nothing cost points.") if whole else tr("Nothing cost as much as a point.")
+            given = (Cost(words),)
         for cost in given:
             self._add(cost.loss, "font-weight: 600;")
             if cost.reasons:

@@ -79,7 +79,7 @@ class AttemptActions(QWidget):
 
     def watch(self, window: QWidget) -> None:
         """Listen for Esc held down anywhere in `window`."""
-        window.installEventFilter(self._escape)
+        self._escape.watch(window)
 
     def listen(self, page: QWidget) -> None:
         """Let the keys work wherever `page` is shown, whichever panel stands in front of this."""
@@ -185,8 +185,23 @@ class HoldKey(QObject):
         self._timer = QTimer(self, interval=HOLD_MS, singleShot=True)
         self._timer.timeout.connect(self.held)
 
+    def watch(self, window: QWidget) -> None:
+        """Listen in a window, before whoever has the focus there: a button of the menu bar keeps
+        keys to itself.
+        """
+        window.installEventFilter(self)
+        self._listen_first(window)
+
+    def _listen_first(self, window: QWidget) -> None:
+        """Listen to the window of the display as well, which hears of each key once it is shown."""
+        handle = window.windowHandle()
+        if handle is not None:
+            handle.installEventFilter(self)  # again, where it was already, is once
+
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Start and stop the clock; the event goes on to whoever wants it."""
+        if event.type() == QEvent.Type.Show and isinstance(watched, QWidget):
+            self._listen_first(watched)
         kinds = (QEvent.Type.KeyPress, QEvent.Type.KeyRelease)
         if event.type() in kinds and isinstance(event, QKeyEvent) and event.key() == self._key:
             if event.isAutoRepeat():
