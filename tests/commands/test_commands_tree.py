@@ -28,7 +28,7 @@ NEEDS_MORE = {
     "transform export", "transform show", "urdf import", "camera test", "library remove",
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
-    "results export", "session delete", "session restore", "store restore",
+    "results export", "session delete", "session restore", "store restore", "store revoke",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
@@ -122,6 +122,8 @@ EXAMPLES = {
     "store backup": ("--out", "all.acusbackup"),
     "store empty-trash": (),
     "store rebuild": (),
+    "store renew": (),
+    "store stations": (),
     "store status": (),
     "study": ("list",),
     "urdf export": ("--out", "robot.urdf"),
