@@ -402,7 +402,13 @@ class People:
         with self.database.read() as connection:
             rows = connection.execute(select(t["remarks"]))
             said = {row.attempt: Remarks(row.comment, row.void, row.released) for row in rows}
-            for attempt, why in connection.execute(select(t[EXCESS])):
+            for attempt, course, attempts in connection.execute(select(t[EXCESS])):
+                why = sentence(
+                    "beyond the {attempts} attempts that the course {course} allows at all "
+                    "stations together",
+                    attempts=attempts,
+                    course=course,
+                )
                 said[attempt] = replace(said.get(attempt, NOTHING_SAID), excess=why)
         return said
 

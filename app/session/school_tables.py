@@ -21,7 +21,7 @@ EXCESS: Final = "excess"
 SCHOOL: Final = (STATIONS, SAID, TOMBSTONES, COUNTED, EXCESS)
 """Names of the tables; lists of people before version 3 have none of them."""
 
-NUMBERS: Final = ("counter", "revoked", "anonymous", "count", "version", "uses")
+NUMBERS: Final = ("counter", "revoked", "anonymous", "number", "version", "uses", "attempts")
 """Columns of theirs that hold numbers; the others hold text."""
 
 
@@ -87,14 +87,14 @@ def add_tables(known: MetaData) -> None:
     public = text("public", primary_key=True)
     named = (text("station"), text("name"), whole("counter"), flag("revoked"), text("seal"))
     Table(STATIONS, known, public, *named)
-    place = (text("attempt", primary_key=True), text("what", primary_key=True))
+    place = (text("attempt", primary_key=True), text("kind", primary_key=True))
     signed = (text("station"), whole("counter"), text("public"), text("signature"))
     Table(SAID, known, *place, text("value"), text("student"), *signed)
     Table(TOMBSTONES, known, text("digest", primary_key=True), text("salt"), flag("anonymous"))
     attempt = text("attempt", primary_key=True)
-    order = (text("station"), whole("count"), text("record"), text("student"))
+    order = (text("station"), whole("number"), text("record"), text("student"))
     Table(COUNTED, known, attempt, *order, text("exercise"), whole("version"), flag("uses"))
-    Table(EXCESS, known, text("attempt", primary_key=True), text("why"))
+    Table(EXCESS, known, text("attempt", primary_key=True), text("course"), whole("attempts"))
 
 
 def _digest(salt: str, key: str) -> str:

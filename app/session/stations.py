@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 NAME_SETTING: Final = "station name"
 
 _NAME: Final = re.compile(r"\w(?:[\w .@+-]{0,38}[\w.@+-])?")
+_SHORTEST_ID: Final = 4
+"""So many digits of an id name a station."""
 _STATION: Final = re.compile(r"[0-9a-f]{16}")
 _PUBLIC: Final = re.compile(r"[0-9a-f]{64}")
 
@@ -227,7 +229,7 @@ def revoke(station: str, people: People | None = None) -> KnownStation:
     """Trust a known station no longer, under all its keys; return it.
 
     Args:
-        station: its name, or the beginning of its id.
+        station: its name, or its id, of which four digits are enough.
         people: of this station.
 
     Raises:
@@ -236,11 +238,10 @@ def revoke(station: str, people: People | None = None) -> KnownStation:
     people = people or People()
     known = stations_of(people)
     wanted = station.strip().casefold()
-    ids = {
-        one.station
-        for one in known.values()
-        if one.name.casefold() == wanted or (wanted and one.station.startswith(wanted))
-    }
+    every = known.values()
+    ids = {one.station for one in every if one.name.casefold() == wanted}
+    if not ids and len(wanted) >= _SHORTEST_ID:
+        ids = {one.station for one in every if one.station.startswith(wanted)}
     if len(ids) != 1:
         names = ", ".join(sorted({one.name for one in known.values()})) or "none"
         raise PeopleError(
