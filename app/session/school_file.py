@@ -48,6 +48,10 @@ _LARGEST: Final = 1 << 26
 _LONGEST_GROUP: Final = 200
 
 
+class UnknownStationError(ArchiveError):
+    """A file of a station that is not known here; tells the fingerprint of its key."""
+
+
 @dataclass(frozen=True, slots=True)
 class Traveller:
     """A student as a course for a station tells of them.
@@ -234,7 +238,8 @@ def stations_with(
         trust: let its station in although it is not known.
 
     Raises:
-        ArchiveError: if its station is revoked, or not known by the key that signed.
+        ArchiveError: if its station is revoked.
+        UnknownStationError: if it is not known by the key that signed.
     """
     sender = manifest.sender
     same = [one for one in known.values() if one.station == sender.station]
@@ -250,7 +255,7 @@ def stations_with(
     own = sender.station == key.station
     keys = {sender.public} & set(key.publics) if own else manifest.publics(known)
     if not keys and not (trust and not own and not same):
-        raise ArchiveError(
+        raise UnknownStationError(
             sentence(
                 "{source} comes from the station {name}, which is not known here by this key: "
                 "compare {fingerprint} with `acus store stations` there, then gather it with "
