@@ -157,7 +157,7 @@ def take_stock(folder: Path, people: People, key: StationKey, progress: Progress
                 values = numbered[one.attempt]._asdict()
                 connection.execute(tables()[COUNTED].insert(), values)
         _sign(connection, folder, numbered, key)
-        _bury(connection, numbered)
+        _bury(connection, folder, numbered)
 
 
 def counted_attempts(connection: Connection) -> dict[str, CountedAttempt]:
@@ -267,16 +267,21 @@ def _sign(
         put_setting(connection, COUNTER, str(counter))
 
 
-def _bury(connection: Connection, numbered: Mapping[str, CountedAttempt]) -> None:
+def _bury(connection: Connection, folder: Path, numbered: Mapping[str, CountedAttempt]) -> None:
     """Make tombstones of who was erased before there were any."""
     from sqlalchemy import select
 
     known = tombstones(connection)
+    keys = connection.execute(select(tables()["erased"].c.key)).scalars().all()
+    new = [key for key in keys if not any(stone.is_of(key) for stone in known)]
+    if not new:
+        return
     there = {one.student for one in numbered.values()}
-    for key in connection.execute(select(tables()["erased"].c.key)).scalars().all():
-        if not any(stone.is_of(key) for stone in known):
-            stone = Tombstone.over(key, key in there)
-            connection.execute(tables()[TOMBSTONES].insert(), stone._asdict())
+    every = (*records(folder), *records(folder / TRASH))
+    there |= {read_kept(path).summary.student for path in every if path.stem not in numbered}
+    for key in new:  # whose records are here were kept as nobody's
+        stone = Tombstone.over(key, key in there)
+        connection.execute(tables()[TOMBSTONES].insert(), stone._asdict())
 
 
 def _value(remarks: Remarks, what: str) -> str:

@@ -10,8 +10,10 @@ from test_session_archive import Place
 
 from app.session.archive import backup, erase_person, restore_backup
 from app.session.people import PEOPLE, VERSION, People
+from app.session.results_file import write_results
 from app.session.roster import RosterLine
-from app.session.school_tables import SCHOOL
+from app.session.said import tombstones
+from app.session.school_tables import SCHOOL, Graves
 from app.session.station import StationKey
 from app.session.stations import KnownStation, put_stations, revoke, stations_of
 
@@ -49,6 +51,18 @@ def test_a_list_of_the_form_before_is_opened_and_loses_nothing(one: Place) -> No
     assert people.sign_in("Ada", "1843").pseudonym == "Ada"
     erase_person("Bob", one.folder, delete_records=True)
     assert form(people.folder / PEOPLE) == VERSION == 3
+
+
+def test_who_was_erased_before_there_were_tombstones_is_told_by_one(one: Place) -> None:
+    ada, bob = (one.people.find(name).key for name in ("Ada", "Bob"))
+    one.attempts(ada, bob)
+    erase_person("Ada", one.folder, delete_records=False)
+    erase_person("Bob", one.folder, delete_records=True)
+    made_older(one.people.folder / PEOPLE)
+    write_results(one.folder.parent / "r", one.folder)
+    with People().database.read() as connection:
+        graves = Graves(tombstones(connection))
+    assert (graves.of(ada), graves.of(bob), graves.of("p-000000000000")) == ("kept", "deleted", "")
 
 
 def test_a_backup_of_the_form_before_is_restored(

@@ -2,6 +2,7 @@
 
 import hmac
 import json
+import shutil
 import sqlite3
 import subprocess
 from contextlib import closing
@@ -86,6 +87,7 @@ def test_a_signature_is_ed25519_over_the_document_and_its_hmac_is_over_both(one:
         holder.verify(signature, b"acus remark\0" + canonical(document))
 
 
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="needs openssl")
 def test_openssl_verifies_a_signature(one: Place, tmp_path: Path) -> None:
     document = json.loads(signature_file(records(one.folder)[0]).read_text())
     public, signature = (bytes.fromhex(document.pop(name)) for name in ("public", "ed25519"))
