@@ -15,6 +15,7 @@ Each file is checked whole beside its place, then taken in one step (`journal`) 
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import zipfile
@@ -25,6 +26,7 @@ from typing import TYPE_CHECKING, Any, Final
 from uuid import uuid4
 
 from app.core import paths
+from app.core.files import LARGEST_FILE
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.backup_file import ArchiveError, unpack
@@ -46,8 +48,8 @@ from app.session.said import (
 )
 from app.session.school_file import SchoolManifest, read_manifest, stations_with
 from app.session.school_tables import COUNTED, TOMBSTONES, Graves
-from app.session.sidecar import file_digest, read_kept
-from app.session.signature import RECORD, signature_file
+from app.session.sidecar import file_digest, read_kept, sidecar, summary_text
+from app.session.signature import RECORD, shown_of, signature_file
 from app.session.station import StationKey, signature_holds
 from app.session.stations import (
     KnownStation,
@@ -56,6 +58,7 @@ from app.session.stations import (
     stations_of,
 )
 from app.session.store import SUFFIX, beside, records, settled
+from app.session.summary import Summary
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection
@@ -241,7 +244,8 @@ class _Gathering:
         for name, place in ((signature, signature_file(target)), (record, target)):
             self._unpack(name, stage / place.name)
             self.steps.append(move(stage / place.name, place))
-        self._check_signature(stage / target.name, attempt)
+        shown = self._check_signature(stage / target.name, attempt)
+        self._stage_summary(stage / target.name, attempt.record, shown)
         self.done = replace(self.done, attempts=self.done.attempts + 1)
 
     def _unpack(self, name: str, target: Path) -> None:
@@ -251,8 +255,11 @@ class _Gathering:
         except ArchiveError as error:
             raise ArchiveError(_damaged(self.source, name)) from error
 
-    def _check_signature(self, record: Path, attempt: CountedAttempt) -> None:
-        """Refuse the file where its station did not sign this record of this student."""
+    def _check_signature(self, record: Path, attempt: CountedAttempt) -> dict[str, Any]:
+        """Return what lists show by the signature of a record.
+
+        Refuses the file where its station did not sign this record of this student.
+        """
         try:
             document = json.loads(signature_file(record).read_text("ascii"))
             shown, public = document["shown"], str(document.pop("public"))
@@ -277,6 +284,27 @@ class _Gathering:
                     station=self.manifest.sender.name,
                 )
             )
+        return dict(shown)
+
+    def _stage_summary(self, record: Path, digest: str, shown: Mapping[str, Any]) -> None:
+        """Keep the summary that the station gives of a record beside it, for lists.
+
+        One that does not say what is signed is left out: lists read the record then.
+        """
+        name = f"{_RECORDS}{record.stem}.json"
+        info = self.archive.NameToInfo.get(name) if name in self.manifest.files else None
+        if info is None or info.file_size > LARGEST_FILE:
+            return
+        data = self.archive.read(info)
+        try:
+            summary = Summary.of(json.loads(data), record.stem)
+        except (ValueError, LookupError, TypeError, ArithmeticError, RecursionError):
+            return
+        right = hashlib.sha256(data).hexdigest() == self.manifest.files[name]
+        if right and shown_of(summary) == shown:
+            text = summary_text(record, summary, digest)
+            sidecar(record).write_text(text, encoding="utf-8", newline="\n")
+            self.steps.append(move(sidecar(record), sidecar(self.folder / record.name)))
 
     def _stage_own(self, name: str, target: Path, stage: Path) -> None:
         """Prepare a course or an exercise; one that is here is kept, and said if it is another."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import zipfile
 from collections.abc import Callable, Iterator
@@ -36,7 +37,7 @@ from app.session.school_file import (
     packed_digest,
     write_manifest,
 )
-from app.session.sidecar import file_digest
+from app.session.sidecar import cached, file_digest
 from app.session.signature import Signed, read_signature, signature_text
 from app.session.station import StationKey
 from app.session.stations import KnownStation, name_of_station, stations_of
@@ -232,13 +233,13 @@ def _pack(
     if check.verdict is not Signed.VERIFIED or document["record"] != file_digest(path):
         return {}
     # those of earlier versions have no signature that others could verify
-    text = signature_text(document, key).encode()
-    return {
-        f"records/{attempt.attempt}.sig": packed_digest(
-            text, f"records/{attempt.attempt}.sig", archive
-        ),
-        f"records/{path.name}": packed_digest(path.read_bytes(), f"records/{path.name}", archive),
-    }
+    parts = {".sig": signature_text(document, key).encode(), SUFFIX: path.read_bytes()}
+    kept = cached(path)
+    if kept is not None and kept.fits(path):
+        summary = json.dumps(kept.summary.document(), ensure_ascii=False, allow_nan=False)
+        parts[".json"] = summary.encode("utf-8", "surrogatepass")
+    names = {f"records/{attempt.attempt}{ending}": data for ending, data in parts.items()}
+    return {name: packed_digest(data, name, archive) for name, data in names.items()}
 
 
 def _travellers(people: People, names: bool, pins: bool) -> Iterator[Traveller]:

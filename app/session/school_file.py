@@ -203,7 +203,8 @@ def read_manifest(archive: zipfile.ZipFile, source: Path) -> SchoolManifest:
     for name in manifest.files:
         info = known.get(name)
         stored = info is not None and info.compress_type == zipfile.ZIP_STORED
-        if not may_hold(name) or info is None or (name.startswith("records/") and not stored):
+        fits = may_hold(name) or _SUMMARY.fullmatch(name)
+        if not fits or info is None or (name.startswith("records/") and not stored):
             raise ArchiveError(_damaged(source, name))
     return manifest
 
@@ -272,6 +273,7 @@ def stations_with(
 
 # --- inside ---------------------------------------------------------------------------------------
 _NOT_OURS: Final = (LookupError, ValueError, TypeError, AttributeError, RecursionError)
+_SUMMARY: Final = re.compile(r"records/[0-9A-Za-z][0-9A-Za-z._-]{0,63}\.json")
 _HEX: Final = re.compile(r"[0-9a-f]{32}|[0-9a-f]{64}")
 
 

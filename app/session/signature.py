@@ -143,11 +143,11 @@ def judge(path: Path, stored: Cached, key: StationKey | None) -> SignatureCheck:
             )
     if found["record"] != stored.sha256:
         return SignatureCheck(Signed.ALTERED, sentence("the record is not the one that was signed"))
-    shown = _shown(stored.summary)
+    shown = shown_of(stored.summary)
     other = [name for name, value in found["shown"].items() if shown.get(name) != value]
     if _rules(stored.summary) != found["rules"] and file_digest(path) == found["record"]:
         # What the record gives by today's rules, if it is that, is the record's own word.
-        fresh = _shown(derive(open_recording(path)))
+        fresh = shown_of(derive(open_recording(path)))
         other = [name for name in other if fresh.get(name) != shown.get(name)]
     if other:
         return SignatureCheck(
@@ -248,11 +248,12 @@ def _document(
         "score": _digest(files.get(SCORE_FILE)),
         "exercise": _digest(files.get(EXERCISE_FILE)),
         "rules": _rules(summary),
-        "shown": _shown(summary),
+        "shown": shown_of(summary),
     }
 
 
-def _shown(summary: Summary) -> dict[str, Any]:
+def shown_of(summary: Summary) -> dict[str, Any]:
+    """Return what a signature says of what lists show of an attempt."""
     score = summary.score or {}
     total = score.get("total")
     return {

@@ -1,5 +1,6 @@
 """Files of stations: what they hold, what is refused in one line, and what is taken."""
 
+import hashlib
 import json
 import os
 import signal
@@ -19,6 +20,7 @@ from app.session.errors import SessionError
 from app.session.gathering import gather_file
 from app.session.people import People
 from app.session.results_file import write_course, write_results
+from app.session.sidecar import cached, fresh_summary
 from app.session.signature import signature_file
 from app.session.station import StationKey, key_file
 from app.session.stations import renew_key, revoke
@@ -70,7 +72,7 @@ def test_results_hold_no_key_no_name_and_no_erased_key(school, tmp_path: Path) -
         assert text not in every
     assert pseudonym.encode() not in every
     assert [len(stone["digest"]) for stone in manifest["tombstones"]] == [64]
-    assert len(manifest["files"]) == 2
+    assert len(manifest["files"]) == 3
 
 
 def test_a_course_brings_the_same_keys_and_names_only_if_asked(school, tmp_path: Path) -> None:
@@ -229,18 +231,40 @@ def test_a_record_that_its_station_did_not_sign_is_not_taken(school, tmp_path: P
     refused(resigned(out, tmp_path / "forged", one, signature, name), two, "is forged")
 
 
-def resigned(out: Path, to: Path, station: SchoolStation, signature: dict, name: str) -> Path:
-    """Let a station sign a file whose record's signature it has not made."""
-    import hashlib
+def test_lists_take_the_summary_of_a_station_only_where_it_says_what_was_signed(
+    school, tmp_path: Path
+) -> None:
+    one, two, _ = school
+    name = one.record(student())
+    out = results(one, tmp_path / "a")
+    gather_file(out, *at(two), trust=True)
+    path = two.folder / f"{name}.mcap"
+    kept = cached(path)
+    assert kept.fits(path)
+    assert kept.summary.document() == fresh_summary(path).document()
+    three = SchoolStation(tmp_path / "three", "three", one.patch)
+    with zipfile.ZipFile(out) as archive:
+        summary = json.loads(archive.read(f"records/{name}.json"))
+    summary["score"]["total"] = 12.0
+    forged = resigned(out, tmp_path / "b", one, summary, name, ".json")
+    assert gather_file(forged, *at(three), trust=True).attempts == 1
+    assert cached(three.folder / f"{name}.mcap") is None
+    (listed,) = list_sessions(three.folder)
+    assert listed.score["total"] == kept.summary.score["total"]
 
+
+def resigned(
+    out: Path, to: Path, station: SchoolStation, document: dict, name: str, ending: str = ".sig"
+) -> Path:
+    """Let a station sign a file that holds something else beside a record."""
     station.enter()
-    key, data = StationKey.of(), json.dumps(signature).encode()
+    key, data = StationKey.of(), json.dumps(document).encode()
     with zipfile.ZipFile(out) as archive:
         manifest = json.loads(archive.read("manifest.json"))
-    manifest["files"][f"records/{name}.sig"] = hashlib.sha256(data).hexdigest()
+    manifest["files"][f"records/{name}{ending}"] = hashlib.sha256(data).hexdigest()
     text = json.dumps(manifest).encode()
     seal = key.sign("file", {"manifest": hashlib.sha256(text).hexdigest()})
-    new = {f"records/{name}.sig": data, "manifest.json": text, "manifest.sig": seal.encode()}
+    new = {f"records/{name}{ending}": data, "manifest.json": text, "manifest.sig": seal.encode()}
     rewritten(out, to, lambda each, old: new.get(each, old))
     return to
 
