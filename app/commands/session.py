@@ -177,7 +177,7 @@ def verify(
     see([derive(open_recording(path))])  # nothing beside the record is written anew
     found, signed = verify_record(path), judge_whole(path, this_station())
     index, admitted = Index(path.parent).problems_of(path), admissions().get(path.stem)
-    verdict = with_admission(signed.verdict.value, file_digest(path), admitted)
+    verdict = with_admission(signed.word, file_digest(path), admitted)
     facts: dict[str, Any] = {
         "signature": verdict,
         "signature_reason": signed.why,

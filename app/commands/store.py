@@ -8,6 +8,7 @@ import typer
 from app.commands.answer import Answer, Commands
 from app.commands.reader_language import local, template
 from app.commands.shown import Each
+from app.commands.stations import add_to
 from app.core.messages import sentence
 
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
@@ -17,13 +18,14 @@ RANK = 90
 
 
 def register(app: typer.Typer) -> None:
-    """Add `store status`, `rebuild`, `backup`, `restore` and `empty-trash`."""
-    store = Commands(help="The folder of records: index, backup, trash.")
+    """Add `store status`, `rebuild`, `backup`, `restore`, `empty-trash`, and those of stations."""
+    store = Commands(help="The folder of records: index, backup, trash, other stations.")
     store.command("status")(status)
     store.command("rebuild")(rebuild)
     store.command("backup")(backup)
     store.command("restore")(restore)
     store.command("empty-trash")(empty)
+    add_to(store)
     app.add_typer(store, name="store")
 
 
@@ -44,14 +46,16 @@ def status(folder: FolderOption = None) -> Answer:
     seen = index.refresh()
     found = index.attempts()
     verdicts, states = Counter(one.verdict for one in found), Counter(one.state for one in found)
-    words = [v for v in Signed if v is not Signed.ADMITTED or verdicts[v.value]]
+    rare = (Signed.ADMITTED, Signed.REVOKED)
+    words = [v.value for v in Signed if v not in rare or verdicts[v.value]]
+    words += sorted({one for one in verdicts if "(" in one})  # by other stations
     facts = {
         "folder": place,
         "index": index.path,
         "read": seen.read,
         "gone": seen.gone,
         "attempts": len(found),
-        "signatures": {verdict.value: verdicts[verdict.value] for verdict in words},
+        "signatures": {verdict: verdicts[verdict] for verdict in words},
         "states": dict(sorted(states.items())),
         "deleted": len(records(place / TRASH)),
     }
@@ -60,7 +64,7 @@ def status(folder: FolderOption = None) -> Answer:
         template("index: {index:?{index}|in memory, the folder can only be read}"),
     )
     lines = [
-        "signatures: " + ", ".join(f"{verdicts[v.value]} {v.value}" for v in words),
+        "signatures: " + ", ".join(f"{verdicts[v]} {v}" for v in words),
         "states: " + (", ".join(f"{n} {state}" for state, n in sorted(states.items())) or "none"),
     ]
     return Answer(facts, lines, shown=shown)

@@ -140,7 +140,7 @@ def results_document(results: Results, progress: Progress | None = None) -> dict
             | {
                 "pseudonym": person.pseudonym if person else "",
                 "comparison_group": group,
-                "void": said.void,
+                "void": said.uncounted,
                 "comment": said.comment,
                 "released": said.released,
             }
@@ -172,7 +172,7 @@ def _tidy(results: Results, progress: Progress) -> Iterator[Sequence[object]]:
         person = results.people.get(one.student)
         said = results.remarks.get(one.id, Remarks())
         score = one.summary.score or {}
-        void = said.void or score.get("void_reason") or ""
+        void = said.uncounted or score.get("void_reason") or ""
         name = (results.names.get(person.key, "") if person else "",) if results.names else ()
         head = (
             *name,

@@ -7,7 +7,6 @@ only, and does not sign the record: lists say `admitted`.
 
 from __future__ import annotations
 
-import hmac
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -43,15 +42,17 @@ class Admission:
 
     def seal(self, key: StationKey) -> str:
         """Return its seal by a station's key."""
-        return key.seal(
-            {
-                "what": "admission",
-                "attempt": self.attempt,
-                "record": self.record,
-                "why": self.why,
-                "time": self.time,
-            }
-        )
+        return key.seal(self.document())
+
+    def document(self) -> dict[str, str]:
+        """Return what is sealed."""
+        return {
+            "what": "admission",
+            "attempt": self.attempt,
+            "record": self.record,
+            "why": self.why,
+            "time": self.time,
+        }
 
 
 def admissions(people: People | None = None) -> dict[str, Admission]:
@@ -66,7 +67,7 @@ def admissions(people: People | None = None) -> dict[str, Admission]:
     found = {}
     for *values, seal in people.admitted():
         one = Admission(*values)
-        if hmac.compare_digest(seal.encode(), one.seal(key).encode()):
+        if key.has_sealed(one.document(), seal):
             found[one.attempt] = one
     return found
 
@@ -75,11 +76,12 @@ def with_admission(verdict: str, record: str, admitted: Admission | None) -> str
     """Return what is said of a record in the end: an unsigned one may have been admitted.
 
     Args:
-        verdict: of its signature.
+        verdict: of its signature, as lists say it.
         record: its SHA-256.
         admitted: what was admitted of its id; None if nothing.
     """
-    if verdict == Signed.UNSIGNED and admitted is not None and admitted.record == record:
+    foreign = verdict.partition(" (")[0] in (Signed.UNSIGNED, Signed.REVOKED)
+    if foreign and admitted is not None and admitted.record == record:
         return Signed.ADMITTED.value
     return verdict
 
@@ -113,7 +115,7 @@ def admit(records: Sequence[Path], reason: str, people: People | None = None) ->
     key, time, taken = StationKey.of(), datetime.now(UTC).isoformat(timespec="seconds"), []
     for path in records:
         found = judge_whole(path, key)
-        if found.verdict is not Signed.UNSIGNED:
+        if found.verdict not in (Signed.UNSIGNED, Signed.REVOKED):
             raise PeopleError(
                 sentence(
                     "{path_stem} is {sentence}; only an unsigned attempt can be admitted",

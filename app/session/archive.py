@@ -109,6 +109,17 @@ def left_out() -> list[str]:
     ] + lines
 
 
+def own_files() -> Iterator[tuple[str, Path]]:
+    """Yield name in the archive and file of the user's own exercises with what belongs to them."""
+    own, structures = paths.data() / "exercises", paths.data() / "structures"
+    for path in (*sorted(own.glob("*")), *sorted((own / "profiles").glob("*.yaml"))):
+        if path.is_file() and path.suffix in (".yaml", *_STRUCTURES):
+            yield f"exercises/{path.relative_to(own).as_posix()}", path
+    for path in sorted(structures.rglob("*")):
+        if path.is_file() and not path.name.startswith("."):
+            yield f"structures/{path.relative_to(structures).as_posix()}", path
+
+
 # --- inside ---------------------------------------------------------------------------------------
 def _write(part: Path, scratch: Path, folder: Path, people: People, progress: Progress) -> int:
     """Write the archive; return how many records are in it."""
@@ -169,13 +180,7 @@ def _members(folder: Path, people: People, scratch: Path) -> Iterator[tuple[str,
         yield f"people/{NAMES_FILE}", people.folder / NAMES_FILE
     for path in sorted(courses_folder(people.folder).glob("*.yaml")):
         yield f"people/courses/{path.name}", path
-    own, structures = paths.data() / "exercises", paths.data() / "structures"
-    for path in (*sorted(own.glob("*")), *sorted((own / "profiles").glob("*.yaml"))):
-        if path.is_file() and path.suffix in (".yaml", *_STRUCTURES):
-            yield f"exercises/{path.relative_to(own).as_posix()}", path
-    for path in sorted(structures.rglob("*")):
-        if path.is_file() and not path.name.startswith("."):
-            yield f"structures/{path.relative_to(structures).as_posix()}", path
+    yield from own_files()
 
 
 def _copied(path: Path, copy: Path) -> Path:

@@ -99,8 +99,23 @@ def read_manifest(archive: zipfile.ZipFile, source: Path) -> Manifest:
     return Manifest(files, key, station, left_out)
 
 
-def unpack(archive: zipfile.ZipFile, name: str, digest: str, target: Path, source: Path) -> None:
+def unpack(
+    archive: zipfile.ZipFile,
+    name: str,
+    digest: str,
+    target: Path,
+    source: Path,
+    durable: bool = True,
+) -> None:
     """Unpack one file, and look whether it is what was packed.
+
+    Args:
+        archive: the backup, open.
+        name: of the file in it.
+        digest: its SHA-256.
+        target: where it goes.
+        source: path of the backup, for messages.
+        durable: wait until it stands on the disk; else whoever asked waits for all files at once.
 
     Raises:
         ArchiveError: if it is not.
@@ -115,8 +130,9 @@ def unpack(archive: zipfile.ZipFile, name: str, digest: str, target: Path, sourc
                 sha.update(block)
                 stream.write(block)
             stream.flush()
-            os.fsync(stream.fileno())
-    except (zlib.error, ValueError) as error:
+            if durable:
+                os.fsync(stream.fileno())
+    except (zlib.error, ValueError, zipfile.BadZipFile) as error:
         raise ArchiveError(
             sentence(
                 "{source} is damaged at {name}: {error}", source=source, name=name, error=error

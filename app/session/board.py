@@ -311,6 +311,8 @@ def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -
         return sentence("altered after it was signed")
     if answer is not None and answer.void:
         return sentence("declared void by the instructor")
+    if answer is not None and answer.excess:
+        return sentence("beyond the attempts that the course allows")
     if not entry.stands:
         return sentence("not sealed by this station")
     if not entry.counts:

@@ -408,7 +408,7 @@ def waiting_for_release(
 
 def not_void(attempts: Iterable[Indexed], remarks: Mapping[str, Remarks]) -> list[Indexed]:
     """Return attempts without those that the instructor declared void: they use up nothing."""
-    return [one for one in attempts if one.id not in remarks or not remarks[one.id].void]
+    return [one for one in attempts if one.id not in remarks or not remarks[one.id].uncounted]
 
 
 def _is_held(course: Course, person: Person, item: Indexed, remarks: Mapping[str, Remarks]) -> bool:

@@ -58,7 +58,7 @@ def erase_person(
         people.forget_keys([person.key], ids, ids, files)
         index.refresh()
         return Erased(len(ids), 0)
-    people.forget_keys([person.key], ids)
+    people.forget_keys([person.key], ids, anonymous=True)
     return Erased(0, len(ids))
 
 

@@ -44,8 +44,9 @@ from app.session.sealed_rows import (
     seals_table,
 )
 from app.session.sidecar import Cached, fresh_kept, read_kept
-from app.session.signature import Signed, judged, signature_file
+from app.session.signature import Signed, judged, signature_file, vouched_for
 from app.session.station import StationKey, seals_here, this_station
+from app.session.stations import mark_of_stations
 from app.session.store import SUFFIX, records, settled
 from app.session.summary import UNFINISHED, Summary
 
@@ -168,12 +169,13 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
         and one.state in ("ended", "aborted", "unfinished")
         and one.conditions.by_person
         and (one.stands or one.state == UNFINISHED)
-        and (one.id not in remarks or not remarks[one.id].void)
+        and (one.id not in remarks or not remarks[one.id].uncounted)
     ]
 
 
 Mark = tuple[int, int, int, str]
-"""Size and time of a record, time of its signature, and the station whose key judged that."""
+"""Size and time of a record, time of its signature, and the station whose key judged that, with
+the stations that it knew."""
 
 
 class Index:
@@ -364,7 +366,7 @@ class Index:
 
     def _there(self, key: StationKey | None) -> dict[str, Mark]:
         """Return the marks of the records in the folder now."""
-        station, marks = key.station if key else "", {}
+        station, marks = mark_of_stations(key), {}
         for path in records(self.folder):
             try:
                 stat = path.stat()
@@ -454,7 +456,7 @@ def _indexed(row: Row, seals: bool, admitted: Admission | None) -> Indexed:
     verdict, record = row[VERDICT], row[len(SEALED) - 1]
     if admitted is not None:
         verdict = with_admission(verdict, record, admitted)
-    stands = verdict != Signed.ALTERED and (not seals or verdict != Signed.UNSIGNED)
+    stands = vouched_for(verdict) if seals else verdict != Signed.ALTERED
     values = row[STARTED : len(SEALED) - 1]
     found = Indexed(*(row[0], *values, stands))
     if not stands:

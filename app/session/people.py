@@ -15,7 +15,7 @@ import secrets
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime, timedelta
 from functools import cache
 from pathlib import Path
@@ -30,6 +30,7 @@ from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
 from app.session.roster import RosterLine, checked_pin, judged_lines
+from app.session.school_tables import COUNTED, EXCESS, SAID, TOMBSTONES, Tombstone, add_tables
 from app.session.station import StationKey, new_recovery_key, opens
 from app.session.tries import (
     INSTRUCTOR,
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
 PEOPLE: Final = "people.sqlite"
 NAMES_FILE: Final = "names.json"
 
-VERSION: Final = 2
+VERSION: Final = 3
 """Of the tables; a file of a later one is left alone."""
 _SHORTEST_PASSWORD: Final = 8
 
@@ -96,11 +97,19 @@ class Remarks:
         comment: text; empty without one.
         void: why it does not count; empty if it does.
         released: whether the student may see its result in an assessment.
+        excess: why it does not count although nobody declared it void: it is beyond what a course
+            allows at all stations together; else empty.
     """
 
     comment: str = ""
     void: str = ""
     released: bool = False
+    excess: str = ""
+
+    @property
+    def uncounted(self) -> str:
+        """Return why it does not count; empty if it does."""
+        return self.void or self.excess
 
 
 NOTHING_SAID: Final = Remarks()
@@ -235,7 +244,7 @@ class People:
             members: dict[str, list[str]] = {}
             for person, group in connection.execute(select(t["members"])):
                 members.setdefault(person, []).append(group)
-        known = self._names() if names else {}
+        known = self.names() if names else {}
         found = [
             Person(
                 key=row.key,
@@ -308,11 +317,11 @@ class People:
                 pin = line.pin or f"{secrets.randbelow(10**6):06d}"
                 hashed[line.pseudonym] = hashed_secret(pin)
                 pins |= {} if line.pin else {line.pseudonym: pin}
-        with self._as_one() as (connection, write_names):
+        with self.as_one() as (connection, write_names):
             known = {
                 row.pseudonym.casefold(): row.key for row in connection.execute(select(persons))
             }
-            names = self._names()
+            names = self.names()
             for line in good:
                 key = known.get(line.pseudonym.casefold())
                 if key is None:
@@ -389,9 +398,19 @@ class People:
             return {}
         from sqlalchemy import select
 
+        t = _tables().tables
         with self.database.read() as connection:
-            found = connection.execute(select(_tables().tables["remarks"]))
-            return {row.attempt: Remarks(row.comment, row.void, row.released) for row in found}
+            rows = connection.execute(select(t["remarks"]))
+            said = {row.attempt: Remarks(row.comment, row.void, row.released) for row in rows}
+            for attempt, course, attempts in connection.execute(select(t[EXCESS])):
+                why = sentence(
+                    "beyond the {attempts} attempts that the course {course} allows at all "
+                    "stations together",
+                    attempts=attempts,
+                    course=course,
+                )
+                said[attempt] = replace(said.get(attempt, NOTHING_SAID), excess=why)
+        return said
 
     def remark(self, attempt: str, **message: str | bool) -> None:
         """Say something of an attempt: `comment`, `void` (with a reason) or `released`."""
@@ -462,6 +481,7 @@ class People:
         comments: Sequence[str] = (),
         attempts: Sequence[str] = (),
         files: Sequence[Path] = (),
+        anonymous: bool = False,
     ) -> None:
         """Erase persons for good, with what is known by key, name and PIN, as one step.
 
@@ -470,27 +490,52 @@ class People:
             comments: attempts of which nothing said is to be left.
             attempts: ids of records that go too.
             files: of those records.
+            anonymous: whether their records stay, as nobody's: what the tombstones say elsewhere.
         """
-        from sqlalchemy.dialects.sqlite import insert
-
-        t = _tables().tables
-        with self._as_one(files) as (connection, write_names):
+        steps: list[Step] = [removal(path) for path in files]
+        with self.as_one(steps) as (connection, write_names):
+            self.forget_in(connection, keys, comments, attempts)
             for key in keys:
-                for name, column in OF_PERSON.items():
-                    connection.execute(t[name].delete().where(t[name].c[column] == key))
-                put = insert(t["erased"]).values(key=key, time=_now())
-                connection.execute(put.on_conflict_do_nothing())
-            for attempt in attempts:
-                put = insert(t["erased_attempts"]).values(id=attempt)
-                connection.execute(put.on_conflict_do_nothing())
-            for attempt in comments:
-                for table in (t["remarks"], t["admitted"]):
-                    connection.execute(table.delete().where(table.c.attempt == attempt))
-            names = self._names()
+                stone = Tombstone.over(key, anonymous)
+                connection.execute(_tables().tables[TOMBSTONES].insert(), stone._asdict())
+            names = self.names()
             left = {key: name for key, name in names.items() if key not in keys}
             if left != names:
                 write_names(left)
         self.database.shrink()
+
+    def forget_in(
+        self,
+        connection: Connection,
+        keys: Sequence[str],
+        comments: Sequence[str] = (),
+        attempts: Sequence[str] = (),
+    ) -> None:
+        """Erase persons within a transaction, without their names and files; as `forget_keys`."""
+        from sqlalchemy.dialects.sqlite import insert
+
+        t = _tables().tables
+        for key in keys:
+            for name, column in OF_PERSON.items():
+                connection.execute(t[name].delete().where(t[name].c[column] == key))
+            put = insert(t["erased"]).values(key=key, time=_now())
+            connection.execute(put.on_conflict_do_nothing())
+        for attempt in attempts:
+            put = insert(t["erased_attempts"]).values(id=attempt)
+            connection.execute(put.on_conflict_do_nothing())
+            connection.execute(t[COUNTED].delete().where(t[COUNTED].c.attempt == attempt))
+        for attempt in comments:
+            for table in (t["remarks"], t["admitted"], t[SAID], t[EXCESS]):
+                connection.execute(table.delete().where(table.c.attempt == attempt))
+
+    # --- for rooms that change people with other things -------------------------------------------
+    def setting(self, name: str) -> str:
+        """Return a setting; empty where there is none."""
+        return self._setting(name)
+
+    def put_wrapped(self, connection: Connection, wrapped: Mapping[str, str]) -> None:
+        """Keep the station's key under a new recovery key, within a transaction."""
+        _set(connection, "wrapped", json.dumps(dict(wrapped)))
 
     # --- inside -----------------------------------------------------------------------------------
     def _tries(self) -> Tries:
@@ -502,8 +547,12 @@ class People:
         with self.database.read() as connection:
             return _setting(connection, name)
 
-    def _names(self) -> dict[str, str]:
-        """Return names by key."""
+    def names(self) -> dict[str, str]:
+        """Return names by key.
+
+        Raises:
+            PeopleError: if their file cannot be read, or is damaged.
+        """
         path = self.folder / NAMES_FILE
         try:
             document = json.loads(path.read_text(encoding="utf-8"))
@@ -528,19 +577,28 @@ class People:
             ) from error
 
     @contextmanager
-    def _as_one(
-        self, files: Sequence[Path] = ()
+    def as_one(
+        self,
+        steps: list[Step] | None = None,
+        undo: Sequence[Step] = (),
+        prepare: Callable[[], None] | None = None,
     ) -> Iterator[tuple[Connection, Callable[[Mapping[str, str]], None]]]:
-        """Write in one transaction, with which the file of names changes and other files go.
+        """Write in one transaction, with which the file of names and other files change.
 
         Whatever ends the program: either all of it has happened, or nothing, from the next look on.
+        Gives the connection, and a function that writes the file of names.
 
         Args:
-            files: to be deleted.
+            steps: done with files if the transaction is committed; may grow until then.
+            undo: done if it is not.
+            prepare: called before the transaction begins, once `undo` stands on the disk.
+
+        Raises:
+            PeopleError: if something cannot be written.
         """
         stamp, part = f"stamp:{uuid4().hex}", beside(self.folder / NAMES_FILE)
         planned = False
-        steps: list[Step] = [removal(path) for path in files]
+        steps = [] if steps is None else steps
 
         def write_names(names: Mapping[str, str]) -> None:
             if not names and not (self.folder / NAMES_FILE).exists():
@@ -556,14 +614,18 @@ class People:
 
         self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         try:
-            with Journal(self.folder, alone=True) as journal, self.database.write() as connection:
-                yield connection, write_names
-                settings = _tables().tables["settings"].c
-                old = settings.name.like("stamp:%") & (settings.value < _yesterday())
-                connection.execute(_tables().tables["settings"].delete().where(old))
-                _set(connection, stamp, _now())
-                journal.plan_with(self.folder / PEOPLE, stamp, steps, [removal(part)])
-                planned = True
+            with Journal(self.folder, undo, alone=True) as journal:
+                if prepare is not None:
+                    prepare()
+                with self.database.write() as connection:
+                    yield connection, write_names
+                    settings = _tables().tables["settings"].c
+                    old = settings.name.like("stamp:%") & (settings.value < _yesterday())
+                    connection.execute(_tables().tables["settings"].delete().where(old))
+                    _set(connection, stamp, _now())
+                    otherwise = [removal(part), *undo]
+                    journal.plan_with(self.folder / PEOPLE, stamp, steps, otherwise)
+                    planned = True
         except OSError as error:
             raise PeopleError(
                 sentence(
@@ -649,6 +711,7 @@ def _tables() -> MetaData:
     )
     admitted = (text(name) for name in ("record", "why", "time", "seal"))
     Table("admitted", known, text("attempt", primary_key=True), *admitted)
+    add_tables(known)
     return known
 
 
@@ -664,5 +727,6 @@ OF_PERSON: Final = {
     "persons": "key",
     "members": "person",
     "failures": "account",
+    "said": "student",
 }
 """Tables that hold something of a person, each with the column of its key."""

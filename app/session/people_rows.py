@@ -18,6 +18,16 @@ from app.session.backup_file import ArchiveError
 from app.session.errors import PeopleError
 from app.session.people import OF_PERSON, VERSION, People, tables
 from app.session.roster import checked_pseudonym, looks_like_a_key
+from app.session.school_tables import (
+    COUNTED,
+    EXCESS,
+    NUMBERS,
+    SAID,
+    SCHOOL,
+    STATIONS,
+    TOMBSTONES,
+)
+from app.session.stations import NAME_SETTING
 
 Rows = tuple[tuple[str | int | float | None, ...], ...]
 
@@ -71,7 +81,7 @@ def read_rows(path: Path, whose: str) -> PeopleRows:
                 {
                     name: _table(source, name, columns, whose)
                     for name, columns in _columns().items()
-                    if _is_table(kinds, name, whose)
+                    if _is_table(kinds, name, whose, version)
                 }
             )
     except (sqlite3.Error, UnicodeError) as error:  # of a text, or of a name in its definition
@@ -86,20 +96,24 @@ def merged(here: PeopleRows, there: PeopleRows) -> PeopleRows:
     in neither.
     """
     found = {name: there.rows(name) for name in ("persons", "members")}
-    for name in ("remarks", "admitted", "erased", "erased_attempts"):
+    for name in ("remarks", "admitted", "erased", "erased_attempts", COUNTED, TOMBSTONES, EXCESS):
         found[name] = _union(here.rows(name), there.rows(name))
+    found[SAID] = _latest(here.rows(SAID), there.rows(SAID))
+    revoked = _columns()[STATIONS].index("revoked")
+    still = tuple(row for row in here.rows(STATIONS) if row[revoked])
+    found[STATIONS] = _union(_union(here.rows(STATIONS), there.rows(STATIONS)), still)
     found["failures"] = here.rows("failures")
     password = "password" in there.ids("settings")
     taken = there if password else here
     found["settings"] = tuple(
         row for row in taken.rows("settings") if row[0] in ("password", "wrapped")
-    )
+    ) + tuple(row for row in here.rows("settings") if row[0] == NAME_SETTING)
     gone = {str(row[0]) for row in found["erased"]}
     for name, column in OF_PERSON.items():
         place = _columns()[name].index(column)
         found[name] = tuple(row for row in found[name] if row[place] not in gone)
     lost = {str(row[0]) for row in found["erased_attempts"]}
-    for name in ("remarks", "admitted"):
+    for name in ("remarks", "admitted", SAID, COUNTED, EXCESS):
         found[name] = tuple(row for row in found[name] if row[0] not in lost)
     return PeopleRows(found)
 
@@ -188,11 +202,20 @@ def _union(first: Rows, second: Rows) -> Rows:
     return tuple({row[0]: row for row in (*first, *second)}.values())
 
 
+def _latest(first: Rows, second: Rows) -> Rows:
+    """Return signed remarks of both, of each the one with the higher counter."""
+    counter = _columns()[SAID].index("counter")
+    rows = sorted((*first, *second), key=lambda row: int(row[counter] or 0))
+    return tuple({(row[0], row[1]): row for row in rows}.values())
+
+
 def _columns() -> dict[str, Sequence[str]]:
     return {name: [column.name for column in table.columns] for name, table in tables().items()}
 
 
-def _is_table(kinds: Mapping[str, str], name: str, whose: str) -> bool:
+def _is_table(kinds: Mapping[str, str], name: str, whose: str, version: int) -> bool:
+    if name in SCHOOL and version < VERSION and name not in kinds:
+        return False  # it was written before there were such tables
     if kinds.get(name) != "table":
         raise ArchiveError(_no_people(whose, sentence("it has no table {name!r}", name=name)))
     return True
@@ -202,7 +225,7 @@ def _table(source: sqlite3.Connection, name: str, columns: Sequence[str], whose:
     """Read the known columns of a table; every value is text or a number."""
     # by its table: SQLite takes a bare name in quotes that is no column for a text
     wanted = ", ".join(f'"{name}"."{column}"' for column in columns)
-    numbers = {"released": int, "wrong": int, "last": float}
+    numbers = {"released", "wrong", "last", *NUMBERS}
     found = []
     for row in source.execute(f'SELECT {wanted} FROM "{name}"'):
         for column, value in zip(columns, row, strict=True):

@@ -94,12 +94,29 @@ def write_summary(path: Path, summary: Summary, mark: tuple[int, int] | None = N
     Raises:
         OSError: if the record cannot be read or the file not be written.
     """
+    mark = mark or _size_and_time(path)  # before the digest: what grows meanwhile is not trusted
+    write_atomically(sidecar(path), summary_text(path, summary, file_digest(path), mark))
+
+
+def summary_text(
+    path: Path, summary: Summary, digest: str, mark: tuple[int, int] | None = None
+) -> str:
+    """Return what stands beside a record, as `write_summary` writes it.
+
+    Args:
+        path: the record.
+        summary: of it.
+        digest: its SHA-256, hexadecimal.
+        mark: as of `write_summary`.
+
+    Raises:
+        OSError: if the record cannot be read.
+    """
     size, modified_ns = mark or _size_and_time(path)
-    record = {"size": size, "modified_ns": modified_ns, "sha256": file_digest(path)}
+    record = {"size": size, "modified_ns": modified_ns, "sha256": digest}
     document = summary.document() | {"record": record}
     document |= {"digest": _digest(document, this_station())}
-    text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
-    write_atomically(sidecar(path), text + "\n")
+    return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def cached(path: Path) -> Cached | None:

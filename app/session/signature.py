@@ -1,16 +1,17 @@
 """Signs finished attempts with the station's key, and tells what a signature says of a record.
 
 Beside a record stands `<id>.sig`: digests of the record, of its score and of its exercise, what
-lists show of them, and an HMAC-SHA256 (RFC 2104) over all that with the key of this station.
-*verified* means: written by this station and unchanged since. It does not mean that the owner of
-the disk could not forge it, for whoever reads the key can sign. *unsigned* is a record without a
-signature, or with that of another station.
+lists show of them, an Ed25519 signature (RFC 8032) of all that, and an HMAC-SHA256 (RFC 2104) over
+the whole with the key of this station. Earlier ones have the HMAC alone, and hold as well.
+*verified* means: written by this station and unchanged since; *verified (station B)*: by the known
+station B, as its public key tells. It does not mean that the owner of the disk could not forge it,
+for whoever reads the key can sign. *revoked* is what a station signed that is trusted no longer.
+*unsigned* is a record without a signature, or with that of a station that is not known here.
 """
 
 from __future__ import annotations
 
 import hashlib
-import hmac
 import json
 from collections.abc import Mapping
 from contextlib import suppress
@@ -24,7 +25,8 @@ from app.core.messages import joined, sentence
 from app.session.conditions import EXERCISE_FILE
 from app.session.recording import open_recording
 from app.session.sidecar import Cached, file_digest
-from app.session.station import StationKey
+from app.session.station import StationKey, signature_holds
+from app.session.stations import known_stations
 from app.session.summary import Summary, derive
 from app.session.verify import SCORE_FILE
 
@@ -38,6 +40,14 @@ class Signed(StrEnum):
     ALTERED = "altered"
     UNSIGNED = "unsigned"
     ADMITTED = "admitted"
+    REVOKED = "revoked"
+
+
+RECORD: Final = "record"
+"""Purpose of the signatures of records."""
+
+_BEYOND: Final = ("public", "ed25519")
+"""What stands in the file beside the document that is signed, under the HMAC as well."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,14 +57,28 @@ class SignatureCheck:
     Attributes:
         verdict: of the signature.
         why: what was altered, or why it counts as unsigned; empty if it is verified.
+        station: name of the known station that signed it; empty for this one.
     """
 
     verdict: Signed
     why: str = ""
+    station: str = ""
+
+    @property
+    def word(self) -> str:
+        """Return what lists say: the verdict, with the station if that is another one."""
+        name = self.station
+        return f"{self.verdict.value} (station {name})" if name else self.verdict.value
 
     def sentence(self) -> str:
         """Say it in one line."""
-        return joined(": ", filter(None, (self.verdict.value, self.why)))
+        return joined(": ", filter(None, (self.word, self.why)))
+
+
+def vouched_for(verdict: str) -> bool:
+    """Return whether a verdict, as lists say it, lets an attempt count where stations sign."""
+    first = verdict.partition(" (")[0]
+    return first in (Signed.VERIFIED, Signed.ADMITTED)
 
 
 def signature_file(path: Path) -> Path:
@@ -74,8 +98,33 @@ def signed(
         files: its attachments by name.
         key: of this station.
     """
-    document = _document(path, digest, summary, files, key.station)
-    return json.dumps(document | {"hmac": key.seal(document)}, indent=1) + "\n"
+    return signature_text(_document(path, digest, summary, files, key.station), key)
+
+
+def signature_text(document: Mapping[str, Any], key: StationKey) -> str:
+    """Return the file of a signature: the document, signed and then sealed.
+
+    Args:
+        document: digests and what is shown; a signature that it has already is made anew.
+        key: of this station.
+    """
+    bare = {name: value for name, value in document.items() if name not in (*_BEYOND, "hmac")}
+    whole = bare | {"public": key.public, "ed25519": key.sign(RECORD, bare)}
+    return json.dumps(whole | {"hmac": key.seal(whole)}, indent=1) + "\n"
+
+
+def read_signature(path: Path, key: StationKey | None) -> tuple[dict[str, Any], SignatureCheck]:
+    """Return the document of a record's signature, and what that is worth before any look at it.
+
+    Args:
+        path: the record.
+        key: of this station.
+
+    Returns:
+        The document, empty where there is none or nobody vouches for it; the verdict is `verified`
+        where the signature holds, whatever the record is now.
+    """
+    return _read(path, key)
 
 
 def judge(path: Path, stored: Cached, key: StationKey | None) -> SignatureCheck:
@@ -84,9 +133,9 @@ def judge(path: Path, stored: Cached, key: StationKey | None) -> SignatureCheck:
     The record is not read: its digest is that of `stored`, which lists trust as long as the
     record's size and time are what they were. `judge_whole` reads it.
     """
-    found = _read(path, key)
-    if isinstance(found, SignatureCheck):
-        return found
+    found, check = _read(path, key)
+    if check.verdict not in (Signed.VERIFIED, Signed.REVOKED):
+        return check
     with suppress(OSError):
         if not stored.is_of(path):  # signed after it was read, and looked at next time
             return SignatureCheck(
@@ -94,17 +143,17 @@ def judge(path: Path, stored: Cached, key: StationKey | None) -> SignatureCheck:
             )
     if found["record"] != stored.sha256:
         return SignatureCheck(Signed.ALTERED, sentence("the record is not the one that was signed"))
-    shown = _shown(stored.summary)
+    shown = shown_of(stored.summary)
     other = [name for name, value in found["shown"].items() if shown.get(name) != value]
     if _rules(stored.summary) != found["rules"] and file_digest(path) == found["record"]:
         # What the record gives by today's rules, if it is that, is the record's own word.
-        fresh = _shown(derive(open_recording(path)))
+        fresh = shown_of(derive(open_recording(path)))
         other = [name for name in other if fresh.get(name) != shown.get(name)]
     if other:
         return SignatureCheck(
             Signed.ALTERED, sentence("the list shows another {key} than was signed", key=other[0])
         )
-    return SignatureCheck(Signed.VERIFIED)
+    return check
 
 
 def judge_whole(path: Path, key: StationKey | None) -> SignatureCheck:
@@ -113,11 +162,11 @@ def judge_whole(path: Path, key: StationKey | None) -> SignatureCheck:
     Raises:
         BrokenRecordingError: if it is none.
     """
-    found = _read(path, key)
-    if isinstance(found, SignatureCheck):
-        return found
+    found, check = _read(path, key)
+    if check.verdict not in (Signed.VERIFIED, Signed.REVOKED):
+        return check
     if found["record"] == file_digest(path):
-        return SignatureCheck(Signed.VERIFIED)
+        return check
     files = open_recording(path).attachments
     for name, word in ((SCORE_FILE, "score"), (EXERCISE_FILE, "exercise")):
         if _digest(files.get(name)) != found[word]:
@@ -137,36 +186,55 @@ def judged(path: Path, stored: Cached, key: StationKey | None) -> Summary:
     if judgement.verdict is Signed.ALTERED:
         problems = (*summary.problems, f"altered after it was signed: {judgement.why}")
         summary = replace(summary, score=None, problems=problems)
-    return replace(summary, signature=judgement.verdict.value)
+    return replace(summary, signature=judgement.word)
 
 
-def _read(path: Path, key: StationKey | None) -> dict[str, Any] | SignatureCheck:
-    """Return the signed document, or what can be said without it."""
+def _read(path: Path, key: StationKey | None) -> tuple[dict[str, Any], SignatureCheck]:
+    """Return the signed document with what it is worth; empty where it is worth nothing."""
     try:
         document: dict[str, Any] = json.loads(read_at_most(signature_file(path)).decode("ascii"))
         seal = str(document.pop("hmac"))
         station, fields = str(document["station"]), (document["record"], document["shown"].items())
     except FileNotFoundError:
-        return SignatureCheck(Signed.UNSIGNED, sentence("no signature stands beside it"))
+        return {}, SignatureCheck(Signed.UNSIGNED, sentence("no signature stands beside it"))
     except OSError as error:
-        return SignatureCheck(
-            Signed.UNSIGNED,
-            sentence("its signature cannot be read: {reason}", reason=error.strerror),
-        )
+        why = sentence("its signature cannot be read: {reason}", reason=error.strerror)
+        return {}, SignatureCheck(Signed.UNSIGNED, why)
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
-        return SignatureCheck(Signed.ALTERED, sentence("its signature is damaged"))
+        return {}, SignatureCheck(Signed.ALTERED, sentence("its signature is damaged"))
     if key is None or station != key.station:
-        return SignatureCheck(
-            Signed.UNSIGNED, sentence("signed by another station ({station})", station=station[:16])
+        check = _by_another(document, station, key)
+        holds = check.verdict is not Signed.UNSIGNED
+    else:
+        check, holds = SignatureCheck(Signed.VERIFIED), False
+        with suppress(ValueError, TypeError, RecursionError):
+            holds = bool(fields) and key.has_sealed(document, seal)
+        if not holds:
+            check = SignatureCheck(Signed.ALTERED, sentence("its signature is not this station's"))
+    if holds and document.get("id") != path.stem:
+        check = SignatureCheck(
+            Signed.ALTERED, sentence("the signature beside it is that of another attempt")
         )
-    with suppress(ValueError, TypeError, RecursionError):
-        if fields and hmac.compare_digest(seal.encode(), key.seal(document).encode()):
-            if document["id"] == path.stem:
-                return document
-            return SignatureCheck(
-                Signed.ALTERED, sentence("the signature beside it is that of another attempt")
-            )
-    return SignatureCheck(Signed.ALTERED, sentence("its signature is not this station's"))
+    return (document if check.verdict in (Signed.VERIFIED, Signed.REVOKED) else {}), check
+
+
+def _by_another(
+    document: Mapping[str, Any], station: str, key: StationKey | None
+) -> SignatureCheck:
+    """Say what the signature of another station is worth: of a known one, what its key tells."""
+    public, signature = (str(document.get(name, "")) for name in _BEYOND)
+    one = known_stations().get(public) if key is not None else None
+    if one is None or one.station != station:
+        why = sentence("signed by another station ({station})", station=station[:16])
+        return SignatureCheck(Signed.UNSIGNED, why)
+    bare = {name: value for name, value in document.items() if name not in _BEYOND}
+    if not signature_holds(public, RECORD, bare, signature):
+        why = sentence("its signature is not that of the station {name}", name=one.name)
+        return SignatureCheck(Signed.ALTERED, why)
+    if one.revoked:
+        why = sentence("the instructor has revoked the station that signed it")
+        return SignatureCheck(Signed.REVOKED, why, one.name)
+    return SignatureCheck(Signed.VERIFIED, "", one.name)
 
 
 def _document(
@@ -180,11 +248,12 @@ def _document(
         "score": _digest(files.get(SCORE_FILE)),
         "exercise": _digest(files.get(EXERCISE_FILE)),
         "rules": _rules(summary),
-        "shown": _shown(summary),
+        "shown": shown_of(summary),
     }
 
 
-def _shown(summary: Summary) -> dict[str, Any]:
+def shown_of(summary: Summary) -> dict[str, Any]:
+    """Return what a signature says of what lists show of an attempt."""
     score = summary.score or {}
     total = score.get("total")
     return {

@@ -1,4 +1,9 @@
-"""The key of this station: drawn once, kept for its owner, and wrapped to travel in a backup."""
+"""The key of this station: drawn once, kept for its owner, and wrapped to travel in a backup.
+
+Of its secret an Ed25519 key pair (RFC 8032) is derived: what the station signs with it anybody can
+verify who has the public half. A renewed key keeps the secrets before it, so that what they sealed
+and signed stays verified.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +17,18 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from app.core import paths
 from app.core.files import beside as new_name_beside
 from app.core.files import step, write_atomically
 from app.core.messages import sentence
 from app.session.errors import SessionError
+
+if TYPE_CHECKING:
+    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
 _RECOVERY_BYTES: Final = 20
 _NONCE_BYTES: Final = 12
@@ -37,10 +46,12 @@ class StationKey:
     Attributes:
         station: random id of the station; not secret.
         secret: 32 random bytes.
+        former: secrets before this one, newest first: what they sealed still holds.
     """
 
     station: str
     secret: bytes = field(repr=False)
+    former: tuple[bytes, ...] = field(default=(), repr=False)
 
     @classmethod
     def of(cls, folder: Path | None = None) -> StationKey:
@@ -54,7 +65,8 @@ class StationKey:
             if not path.exists():
                 _draw(path)
             document = json.loads(path.read_text(encoding="ascii"))
-            return cls(str(document["station"]), bytes.fromhex(document["secret"]))
+            former = tuple(bytes.fromhex(text) for text in document.get("former", ()))
+            return cls(str(document["station"]), bytes.fromhex(document["secret"]), former)
         except OSError as error:
             raise SignatureError(
                 sentence(
@@ -75,8 +87,45 @@ class StationKey:
 
     def seal(self, document: Mapping[str, Any]) -> str:
         """HMAC of a document, hexadecimal."""
-        text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
-        return hmac.new(self.secret, text.encode(), hashlib.sha256).hexdigest()
+        return hmac.digest(self.secret, _text(document), "sha256").hex()
+
+    def has_sealed(self, document: Mapping[str, Any], seal: str) -> bool:
+        """Return whether a seal of a document is this station's, by this secret or one before."""
+        text, given = _text(document), seal.encode()
+        seals = (hmac.digest(one, text, "sha256").hex() for one in (self.secret, *self.former))
+        return (
+            sum(hmac.compare_digest(given, one.encode()) for one in seals) > 0
+        )  # none is passed over
+
+    @property
+    def public(self) -> str:
+        """Public half of the key pair, hexadecimal; not secret."""
+        return _public(self.secret)
+
+    @property
+    def publics(self) -> tuple[str, ...]:
+        """Public halves of this key and of those before it, newest first."""
+        return tuple(map(_public, (self.secret, *self.former)))
+
+    def sign(self, purpose: str, document: Mapping[str, Any]) -> str:
+        """Sign a document (Ed25519), hexadecimal: for one purpose, and no other."""
+        return _private(self.secret).sign(_message(purpose, document)).hex()
+
+    def succession(self) -> list[dict[str, str]]:
+        """Return who followed whom among the public keys, newest first, signed by the one before.
+
+        Whoever knows one of them knows those after it.
+        """
+        secrets_, rows = (self.secret, *self.former), []
+        for new, old in pairwise(secrets_):
+            row = {"station": self.station, "public": _public(new), "before": _public(old)}
+            signature = _private(old).sign(_message("succession", row)).hex()
+            rows.append(row | {"signature": signature})
+        return rows
+
+    def renewed(self) -> StationKey:
+        """Return a key of the same station with a new secret, which keeps those before it."""
+        return StationKey(self.station, secrets.token_bytes(32), (self.secret, *self.former))
 
     def derived(self, purpose: str) -> bytes:
         """Return a key for one purpose: what it seals is no seal of anything else."""
@@ -96,7 +145,8 @@ class StationKey:
 
         salt, nonce = secrets.token_bytes(16), secrets.token_bytes(_NONCE_BYTES)
         cipher = AESGCM(_stretched(recovery, salt))
-        sealed = cipher.encrypt(nonce, self.secret, _context(self.station))
+        every = b"".join((self.secret, *self.former))
+        sealed = cipher.encrypt(nonce, every, _context(self.station))
         parts = {"salt": salt.hex(), "nonce": nonce.hex(), "sealed": sealed.hex()}
         return {"station": self.station, **parts}
 
@@ -128,12 +178,18 @@ class StationKey:
         except (ValueError, LookupError, TypeError) as error:
             raise SignatureError(sentence("the station's key in this backup is damaged")) from error
         try:
-            secret = AESGCM(_stretched(recovery, salt)).decrypt(nonce, sealed, _context(station))
+            every = AESGCM(_stretched(recovery, salt)).decrypt(nonce, sealed, _context(station))
         except InvalidTag as error:
             raise SignatureError(
                 sentence("that is not the recovery key that was printed: type it again")
             ) from error
-        return cls(station, secret)
+        first, *former = (every[at : at + 32] for at in range(0, len(every), 32))
+        return cls(station, first, tuple(former))
+
+    def document(self) -> dict[str, Any]:
+        """Return what stands in the key's file."""
+        document = {"station": self.station, "secret": self.secret.hex()}
+        return document | ({"former": [one.hex() for one in self.former]} if self.former else {})
 
     def keep(self, folder: Path | None = None) -> None:
         """Make it the key of this station.
@@ -141,10 +197,9 @@ class StationKey:
         Raises:
             SignatureError: if it cannot be written.
         """
-        document = {"station": self.station, "secret": self.secret.hex()}
         path = key_file(folder)
         try:
-            write_atomically(path, json.dumps(document) + "\n")
+            write_atomically(path, json.dumps(self.document()) + "\n")
             path.chmod(0o600)
         except OSError as error:
             raise SignatureError(
@@ -154,6 +209,26 @@ class StationKey:
                     error_strerror=error.strerror or error,
                 )
             ) from error
+
+
+def signature_holds(public: str, purpose: str, document: Mapping[str, Any], signature: str) -> bool:
+    """Return whether a document was signed for a purpose by the other half of a public key.
+
+    Args:
+        public: key, hexadecimal; one that is none has signed nothing.
+        purpose: of the signature.
+        document: that was signed.
+        signature: hexadecimal.
+    """
+    from cryptography.exceptions import InvalidSignature
+    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
+
+    try:
+        key = Ed25519PublicKey.from_public_bytes(bytes.fromhex(public))
+        key.verify(bytes.fromhex(signature), _message(purpose, document))
+    except (InvalidSignature, ValueError, TypeError, RecursionError):
+        return False
+    return True
 
 
 def opens(document: Mapping[str, str]) -> bool:
@@ -216,6 +291,30 @@ def _draw(path: Path) -> None:
             os.link(beside, path)  # never replaces a key that is there
     finally:
         beside.unlink(missing_ok=True)
+
+
+def _text(document: Mapping[str, Any]) -> bytes:
+    """Return the one text that a document is sealed and signed as."""
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    return text.encode()
+
+
+def _message(purpose: str, document: Mapping[str, Any]) -> bytes:
+    return b"acus " + purpose.encode() + b"\0" + _text(document)
+
+
+@lru_cache(maxsize=64)
+def _private(secret: bytes) -> Ed25519PrivateKey:
+    """Return the private half of the pair that a secret stands for."""
+    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
+
+    seed = hmac.digest(secret, b"acus ed25519", "sha256")
+    return Ed25519PrivateKey.from_private_bytes(seed)
+
+
+@lru_cache(maxsize=64)
+def _public(secret: bytes) -> str:
+    return _private(secret).public_key().public_bytes_raw().hex()
 
 
 def _context(station: str) -> bytes:

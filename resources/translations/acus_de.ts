@@ -5552,6 +5552,10 @@
             <translation type="unfinished">vom Kursleiter für ungültig erklärt</translation>
         </message>
         <message>
+            <source>beyond the attempts that the course allows</source>
+            <translation type="unfinished" >über die Versuche hinaus, die der Kurs erlaubt</translation>
+        </message>
+        <message>
             <source>not sealed by this station</source>
             <translation type="unfinished">nicht von dieser Station versiegelt</translation>
         </message>
@@ -6106,6 +6110,10 @@
         <message>
             <source>{no_sign_in}: try again</source>
             <translation type="unfinished">{no_sign_in}: Versuchen Sie es noch einmal</translation>
+        </message>
+        <message>
+            <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
+            <translation type="unfinished" >über die {attempts} Versuche hinaus, die der Kurs {course} an allen Stationen zusammen erlaubt</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -11970,6 +11978,14 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">anerkannt</translation>
         </message>
         <message>
+            <source>revoked</source>
+            <translation type="unfinished" >widerrufen</translation>
+        </message>
+        <message>
+            <source> (station {name})</source>
+            <translation type="unfinished" > (Station {name})</translation>
+        </message>
+        <message>
             <source>Drill: {title}</source>
             <translation type="unfinished">Gezielte Übung: {title}</translation>
         </message>
@@ -14975,6 +14991,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Course</source>
             <translation type="unfinished">Kurs</translation>
+        </message>
+        <message>
+            <source>Stations</source>
+            <translation type="unfinished" >Stationen</translation>
+        </message>
+        <message>
+            <source>Bring the results of several stations together</source>
+            <translation type="unfinished" >Die Ergebnisse mehrerer Stationen zusammenführen</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -18614,6 +18638,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts are beyond a course's limit at all stations together: marked</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch ist über die Grenze eines Kurses an allen Stationen zusammen hinaus: markiert</numerusform>
+                <numerusform>{n} Versuche sind über die Grenze eines Kurses an allen Stationen zusammen hinaus: markiert</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch liegt in {folder}, wo frühere Versionen Versuche aufbewahrten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` zeigt alle</numerusform>
@@ -18625,6 +18656,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Versuch eines Teilnehmers ist für den Kursleiter: {variable} enthält das Passwort</numerusform>
                 <numerusform>{n} Versuche von Teilnehmer sind für den Kursleiter: {variable} enthält das Passwort</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts saved in {name}</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch in {name} gespeichert</numerusform>
+                <numerusform>{n} Versuche in {name} gespeichert</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18674,6 +18712,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Datei enthält hinter den Bildpunkten Bytes, die ausgelassen werden</numerusform>
                 <numerusform>{n} Dateien enthalten hinter den Bildpunkten Bytes, die ausgelassen werden</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files taken in</source>
+            <translation type="unfinished">
+                <numerusform>{n} Datei aufgenommen</numerusform>
+                <numerusform>{n} Dateien aufgenommen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18758,6 +18803,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Punkt „{name}“: Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</numerusform>
                 <numerusform>{n} Punkte „{name}“: Eine Registrierung braucht mindestens {fewest}, und {fewest_to_check}, um einen falschen zu finden</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{station}: {n} attempts added, {m} here already</source>
+            <translation type="unfinished">
+                <numerusform>{station}: {n} Versuch hinzugefügt, {m} schon hier</numerusform>
+                <numerusform>{station}: {n} Versuche hinzugefügt, {m} schon hier</numerusform>
             </translation>
         </message>
         <message>
@@ -19211,6 +19263,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">von einer anderen Station signiert ({station})</translation>
         </message>
         <message>
+            <source>its signature is not that of the station {name}</source>
+            <translation type="unfinished" >die Signatur ist nicht die der Station {name}</translation>
+        </message>
+        <message>
+            <source>the instructor has revoked the station that signed it</source>
+            <translation type="unfinished" >der Kursleiter hat die Station widerrufen, die signiert hat</translation>
+        </message>
+        <message>
             <source>the signature beside it is that of another attempt</source>
             <translation type="unfinished">die Signatur daneben gehört zu einem anderen Versuch</translation>
         </message>
@@ -19541,6 +19601,186 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>nothing parts {experienced} from {others} in {exercise}: of no metric that says how the needle went are the others worse; its tolerances stay</source>
             <translation type="unfinished">nichts trennt {experienced} und {others} in {exercise}: in keiner Metrik über den Weg der Nadel sind die anderen schlechter; die Toleranzen bleiben</translation>
+        </message>
+        <message>
+            <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
+            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?widerrufen|}</translation>
+        </message>
+        <message>
+            <source>no other station is known here</source>
+            <translation type="unfinished" >keine andere Station ist hier bekannt</translation>
+        </message>
+        <message>
+            <source>this station is {name}: {fingerprint}</source>
+            <translation type="unfinished" >diese Station heißt {name}: {fingerprint}</translation>
+        </message>
+        <message>
+            <source>{name} is revoked: what it signed counts here only once admitted</source>
+            <translation type="unfinished" >{name} ist widerrufen: Was sie signiert hat, zählt hier nur, wenn es anerkannt ist</translation>
+        </message>
+        <message>
+            <source>Print it and lock it away: it opens the station's key in a backup.</source>
+            <translation type="unfinished" >Drucken Sie ihn aus und schließen Sie ihn weg: Er öffnet den Schlüssel der Station in einer Sicherung.</translation>
+        </message>
+        <message>
+            <source>this station has a new key: {fingerprint}</source>
+            <translation type="unfinished" >diese Station hat einen neuen Schlüssel: {fingerprint}</translation>
+        </message>
+        <message>
+            <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
+            <translation type="unfinished" >{attempts:#1 Versuch|# Versuche} und {remarks:#1 Bemerkung|# Bemerkungen} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>✖ {} is left out: it was altered after it was signed</source>
+            <translation type="unfinished" >✖ {} ist ausgelassen: nach dem Signieren verändert</translation>
+        </message>
+        <message>
+            <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
+            <translation type="unfinished" >{people:#1 Teilnehmer|# Teilnehmer} und {courses:#1 Kurs|# Kurse} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
+            <translation type="unfinished" >{station}: {attempts:#1 Versuch|# Versuche} hinzugefügt, {present} schon hier, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Teilnehmer|# Teilnehmer}, {courses:#1 Kurs|# Kurse}, {erased} gelöscht, {left_out} als gelöscht ausgelassen</translation>
+        </message>
+        <message>
+            <source>left out: {line}</source>
+            <translation type="unfinished" >ausgelassen: {line}</translation>
+        </message>
+        <message>
+            <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
+            <translation type="unfinished" >{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
+        </message>
+        <message>
+            <source>cannot take in {source}: {reason} ({place})</source>
+            <translation type="unfinished" >{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
+        </message>
+        <message>
+            <source>the attempt {name} is another record here</source>
+            <translation type="unfinished" >der Versuch {name} ist hier eine andere Aufzeichnung</translation>
+        </message>
+        <message>
+            <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
+            <translation type="unfinished" >{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+        </message>
+        <message>
+            <source>{name} is another file here</source>
+            <translation type="unfinished" >{name} ist hier eine andere Datei</translation>
+        </message>
+        <message>
+            <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
+            <translation type="unfinished" >{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
+            <translation type="unfinished" >{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
+        </message>
+        <message>
+            <source>{source} is damaged at {name}: fetch it anew from its station</source>
+            <translation type="unfinished" >{source} ist bei {name} beschädigt: Holen Sie sie neu von ihrer Station</translation>
+        </message>
+        <message>
+            <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
+            <translation type="unfinished" >{source} enthält weder Ergebnisse noch den Kurs einer Station: Schreiben Sie die Datei dort neu mit `acus store results` oder `acus store station`</translation>
+        </message>
+        <message>
+            <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
+            <translation type="unfinished" >{source} ist eine andere Datei von Acus ({kind!r:.40}): Geben Sie eine an, die `acus store results` oder `acus store station` geschrieben hat</translation>
+        </message>
+        <message>
+            <source>{source} was written by a newer version of Acus: use that version here too</source>
+            <translation type="unfinished" >{source} stammt von einer neueren Version von Acus: Benutzen Sie diese Version auch hier</translation>
+        </message>
+        <message>
+            <source>{source} was altered after its station signed it: fetch it anew from the station</source>
+            <translation type="unfinished" >{source} wurde verändert, nachdem die Station signiert hatte: Holen Sie die Datei neu von der Station</translation>
+        </message>
+        <message>
+            <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
+            <translation type="unfinished" >{source} kommt von der Station {name}, die der Kursleiter widerrufen hat: Nichts davon wird aufgenommen</translation>
+        </message>
+        <message>
+            <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
+            <translation type="unfinished" >{source} kommt von der Station {name}, die hier mit diesem Schlüssel nicht bekannt ist: Vergleichen Sie {fingerprint} dort mit `acus store stations` und nehmen Sie die Datei dann mit --trust auf</translation>
+        </message>
+        <message>
+            <source>no station and public key</source>
+            <translation type="unfinished" >keine Station mit öffentlichem Schlüssel</translation>
+        </message>
+        <message>
+            <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
+            <translation type="unfinished" >{name!r} kann nicht der Name einer Station sein: nur Buchstaben, Ziffern, Leerzeichen und . _ @ + -, höchstens 40, mit einem Buchstaben oder einer Ziffer am Anfang</translation>
+        </message>
+        <message>
+            <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
+            <translation type="unfinished" >{station!r} ist keine bekannte Station oder mehrere: Geben Sie Namen oder Kennung einer einzigen an; bekannt: {names}</translation>
+        </message>
+        <message>
+            <source>Bring results of stations together…</source>
+            <translation type="unfinished" >Ergebnisse von Stationen zusammenführen…</translation>
+        </message>
+        <message>
+            <source>Write this station's results…</source>
+            <translation type="unfinished" >Ergebnisse dieser Station schreiben…</translation>
+        </message>
+        <message>
+            <source>Write the course for a station…</source>
+            <translation type="unfinished" >Kurs für eine Station schreiben…</translation>
+        </message>
+        <message>
+            <source>Results of stations</source>
+            <translation type="unfinished" >Ergebnisse von Stationen</translation>
+        </message>
+        <message>
+            <source>Bringing stations together</source>
+            <translation type="unfinished" >Stationen werden zusammengeführt</translation>
+        </message>
+        <message>
+            <source>Let these stations in?</source>
+            <translation type="unfinished" >Diese Stationen zulassen?</translation>
+        </message>
+        <message>
+            <source>Let them in</source>
+            <translation type="unfinished" >Zulassen</translation>
+        </message>
+        <message>
+            <source>Write this station's results</source>
+            <translation type="unfinished" >Ergebnisse dieser Station schreiben</translation>
+        </message>
+        <message>
+            <source>left out, altered: {names}</source>
+            <translation type="unfinished" >ausgelassen, weil verändert: {names}</translation>
+        </message>
+        <message>
+            <source>Write the course for a station</source>
+            <translation type="unfinished" >Kurs für eine Station schreiben</translation>
+        </message>
+        <message>
+            <source>Writing the course for a station</source>
+            <translation type="unfinished" >Kurs für eine Station wird geschrieben</translation>
+        </message>
+        <message>
+            <source>remarks: {n}</source>
+            <translation type="unfinished" >Bemerkungen: {n}</translation>
+        </message>
+        <message>
+            <source>new students: {n}</source>
+            <translation type="unfinished" >neue Teilnehmer: {n}</translation>
+        </message>
+        <message>
+            <source>new courses: {n}</source>
+            <translation type="unfinished" >neue Kurse: {n}</translation>
+        </message>
+        <message>
+            <source>persons erased: {n}</source>
+            <translation type="unfinished" >gelöschte Personen: {n}</translation>
+        </message>
+        <message>
+            <source>left out as erased: {n}</source>
+            <translation type="unfinished" >als gelöscht ausgelassen: {n}</translation>
+        </message>
+        <message>
+            <source>Files of stations (*.acus)</source>
+            <translation type="unfinished" >Dateien von Stationen (*.acus)</translation>
         </message>
     </context>
 </TS>

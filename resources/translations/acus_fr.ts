@@ -5552,6 +5552,10 @@
             <translation type="unfinished">déclaré nul par le formateur</translation>
         </message>
         <message>
+            <source>beyond the attempts that the course allows</source>
+            <translation type="unfinished" >au-delà des essais que le cours autorise</translation>
+        </message>
+        <message>
             <source>not sealed by this station</source>
             <translation type="unfinished">non scellé par ce poste</translation>
         </message>
@@ -6106,6 +6110,10 @@
         <message>
             <source>{no_sign_in}: try again</source>
             <translation type="unfinished">{no_sign_in} : réessayez</translation>
+        </message>
+        <message>
+            <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
+            <translation type="unfinished" >au-delà des {attempts} essais que le cours {course} autorise sur tous les postes réunis</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -11970,6 +11978,14 @@ Lettres : directions du patient
             <translation type="unfinished">admis</translation>
         </message>
         <message>
+            <source>revoked</source>
+            <translation type="unfinished" >révoqué</translation>
+        </message>
+        <message>
+            <source> (station {name})</source>
+            <translation type="unfinished" > (poste {name})</translation>
+        </message>
+        <message>
             <source>Drill: {title}</source>
             <translation type="unfinished">Exercice ciblé : {title}</translation>
         </message>
@@ -14975,6 +14991,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Course</source>
             <translation type="unfinished">Cours</translation>
+        </message>
+        <message>
+            <source>Stations</source>
+            <translation type="unfinished" >Postes</translation>
+        </message>
+        <message>
+            <source>Bring the results of several stations together</source>
+            <translation type="unfinished" >Réunir les résultats de plusieurs postes</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -18614,6 +18638,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts are beyond a course's limit at all stations together: marked</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai dépasse la limite d’un cours sur tous les postes réunis : marqué</numerusform>
+                <numerusform>{n} essais dépassent la limite d’un cours sur tous les postes réunis : marqués</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
             <translation type="unfinished">
                 <numerusform>{n} essai se trouve dans {folder}, où d’anciennes versions conservaient les essais : `acus session gather` apporte les vôtres ici, `acus session list --folder {folder}` les liste tous</numerusform>
@@ -18625,6 +18656,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} essai d’étudiant est réservé au formateur : {variable} contient le mot de passe</numerusform>
                 <numerusform>{n} essais d’étudiants sont réservés au formateur : {variable} contient le mot de passe</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts saved in {name}</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai enregistré dans {name}</numerusform>
+                <numerusform>{n} essais enregistrés dans {name}</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18674,6 +18712,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} fichier contient, derrière les pixels, des octets qui sont écartés</numerusform>
                 <numerusform>{n} fichiers contiennent, derrière les pixels, des octets qui sont écartés</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files taken in</source>
+            <translation type="unfinished">
+                <numerusform>{n} fichier pris</numerusform>
+                <numerusform>{n} fichiers pris</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18758,6 +18803,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} point « {name} » : un recalage en demande au moins {fewest}, et {fewest_to_check} pour trouver celui qui est faux</numerusform>
                 <numerusform>{n} points « {name} » : un recalage en demande au moins {fewest}, et {fewest_to_check} pour trouver celui qui est faux</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{station}: {n} attempts added, {m} here already</source>
+            <translation type="unfinished">
+                <numerusform>{station} : {n} essai ajouté, {m} déjà ici</numerusform>
+                <numerusform>{station} : {n} essais ajoutés, {m} déjà ici</numerusform>
             </translation>
         </message>
         <message>
@@ -19211,6 +19263,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">signé par un autre poste ({station})</translation>
         </message>
         <message>
+            <source>its signature is not that of the station {name}</source>
+            <translation type="unfinished" >la signature n’est pas celle du poste {name}</translation>
+        </message>
+        <message>
+            <source>the instructor has revoked the station that signed it</source>
+            <translation type="unfinished" >le formateur a révoqué le poste qui l’a signé</translation>
+        </message>
+        <message>
             <source>the signature beside it is that of another attempt</source>
             <translation type="unfinished">la signature qui se trouve à côté est celle d’un autre essai</translation>
         </message>
@@ -19541,6 +19601,186 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>nothing parts {experienced} from {others} in {exercise}: of no metric that says how the needle went are the others worse; its tolerances stay</source>
             <translation type="unfinished">rien ne sépare {experienced} et {others} dans {exercise} : aucune mesure du trajet de l’aiguille n’est moins bonne chez les autres ; les tolérances restent</translation>
+        </message>
+        <message>
+            <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
+            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?révoqué|}</translation>
+        </message>
+        <message>
+            <source>no other station is known here</source>
+            <translation type="unfinished" >aucun autre poste n’est connu ici</translation>
+        </message>
+        <message>
+            <source>this station is {name}: {fingerprint}</source>
+            <translation type="unfinished" >ce poste est {name} : {fingerprint}</translation>
+        </message>
+        <message>
+            <source>{name} is revoked: what it signed counts here only once admitted</source>
+            <translation type="unfinished" >{name} est révoqué : ce qu’il a signé ne compte ici qu’une fois admis</translation>
+        </message>
+        <message>
+            <source>Print it and lock it away: it opens the station's key in a backup.</source>
+            <translation type="unfinished" >Imprimez-la et mettez-la sous clé : elle ouvre la clé du poste dans une sauvegarde.</translation>
+        </message>
+        <message>
+            <source>this station has a new key: {fingerprint}</source>
+            <translation type="unfinished" >ce poste a une nouvelle clé : {fingerprint}</translation>
+        </message>
+        <message>
+            <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
+            <translation type="unfinished" >{attempts:#1 essai|# essais|0 essai} et {remarks:#1 remarque|# remarques|0 remarque} dans {files}</translation>
+        </message>
+        <message>
+            <source>✖ {} is left out: it was altered after it was signed</source>
+            <translation type="unfinished" >✖ {} est omis : altéré après la signature</translation>
+        </message>
+        <message>
+            <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
+            <translation type="unfinished" >{people:#1 étudiant|# étudiants|0 étudiant} et {courses:#1 cours|# cours|0 cours} dans {files}</translation>
+        </message>
+        <message>
+            <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
+            <translation type="unfinished" >{station} : {attempts:#1 essai ajouté|# essais ajoutés|0 essai ajouté}, {present} déjà ici, {remarks:#1 remarque|# remarques|0 remarque}, {people:#1 étudiant|# étudiants|0 étudiant}, {courses:#1 cours|# cours|0 cours}, {erased} effacés, {left_out} omis car effacés</translation>
+        </message>
+        <message>
+            <source>left out: {line}</source>
+            <translation type="unfinished" >omis : {line}</translation>
+        </message>
+        <message>
+            <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
+            <translation type="unfinished" >{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
+        </message>
+        <message>
+            <source>cannot take in {source}: {reason} ({place})</source>
+            <translation type="unfinished" >impossible de prendre {source} : {reason} ({place})</translation>
+        </message>
+        <message>
+            <source>the attempt {name} is another record here</source>
+            <translation type="unfinished" >l’essai {name} est ici un autre enregistrement</translation>
+        </message>
+        <message>
+            <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
+            <translation type="unfinished" >{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
+        </message>
+        <message>
+            <source>{name} is another file here</source>
+            <translation type="unfinished" >{name} est ici un autre fichier</translation>
+        </message>
+        <message>
+            <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
+            <translation type="unfinished" >{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
+            <translation type="unfinished" >{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
+        </message>
+        <message>
+            <source>{source} is damaged at {name}: fetch it anew from its station</source>
+            <translation type="unfinished" >{source} est endommagé à {name} : reprenez-le sur son poste</translation>
+        </message>
+        <message>
+            <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
+            <translation type="unfinished" >{source} ne contient ni résultats ni cours d’un poste : écrivez-le de nouveau là-bas avec `acus store results` ou `acus store station`</translation>
+        </message>
+        <message>
+            <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
+            <translation type="unfinished" >{source} est un autre fichier d’Acus ({kind!r:.40}) : donnez-en un écrit par `acus store results` ou `acus store station`</translation>
+        </message>
+        <message>
+            <source>{source} was written by a newer version of Acus: use that version here too</source>
+            <translation type="unfinished" >{source} a été écrit par une version plus récente d’Acus : utilisez-la ici aussi</translation>
+        </message>
+        <message>
+            <source>{source} was altered after its station signed it: fetch it anew from the station</source>
+            <translation type="unfinished" >{source} a été altéré après la signature du poste : reprenez-le sur le poste</translation>
+        </message>
+        <message>
+            <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
+            <translation type="unfinished" >{source} vient du poste {name}, que le formateur a révoqué : rien n’en est pris</translation>
+        </message>
+        <message>
+            <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
+            <translation type="unfinished" >{source} vient du poste {name}, qui n’est pas connu ici par cette clé : comparez {fingerprint} avec `acus store stations` là-bas, puis prenez-le avec --trust</translation>
+        </message>
+        <message>
+            <source>no station and public key</source>
+            <translation type="unfinished" >ni poste ni clé publique</translation>
+        </message>
+        <message>
+            <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
+            <translation type="unfinished" >{name!r} ne peut pas être le nom d’un poste : lettres, chiffres, espaces et . _ @ + - seulement, 40 au plus, en commençant par une lettre ou un chiffre</translation>
+        </message>
+        <message>
+            <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
+            <translation type="unfinished" >{station!r} n’est pas un poste connu, ou en désigne plusieurs : donnez le nom ou l’identifiant d’un seul ; connus : {names}</translation>
+        </message>
+        <message>
+            <source>Bring results of stations together…</source>
+            <translation type="unfinished" >Réunir les résultats de plusieurs postes…</translation>
+        </message>
+        <message>
+            <source>Write this station's results…</source>
+            <translation type="unfinished" >Écrire les résultats de ce poste…</translation>
+        </message>
+        <message>
+            <source>Write the course for a station…</source>
+            <translation type="unfinished" >Écrire le cours pour un poste…</translation>
+        </message>
+        <message>
+            <source>Results of stations</source>
+            <translation type="unfinished" >Résultats de postes</translation>
+        </message>
+        <message>
+            <source>Bringing stations together</source>
+            <translation type="unfinished" >Réunion des postes</translation>
+        </message>
+        <message>
+            <source>Let these stations in?</source>
+            <translation type="unfinished" >Admettre ces postes ?</translation>
+        </message>
+        <message>
+            <source>Let them in</source>
+            <translation type="unfinished" >Admettre</translation>
+        </message>
+        <message>
+            <source>Write this station's results</source>
+            <translation type="unfinished" >Écrire les résultats de ce poste</translation>
+        </message>
+        <message>
+            <source>left out, altered: {names}</source>
+            <translation type="unfinished" >omis, car altérés : {names}</translation>
+        </message>
+        <message>
+            <source>Write the course for a station</source>
+            <translation type="unfinished" >Écrire le cours pour un poste</translation>
+        </message>
+        <message>
+            <source>Writing the course for a station</source>
+            <translation type="unfinished" >Écriture du cours pour un poste</translation>
+        </message>
+        <message>
+            <source>remarks: {n}</source>
+            <translation type="unfinished" >remarques : {n}</translation>
+        </message>
+        <message>
+            <source>new students: {n}</source>
+            <translation type="unfinished" >nouveaux étudiants : {n}</translation>
+        </message>
+        <message>
+            <source>new courses: {n}</source>
+            <translation type="unfinished" >nouveaux cours : {n}</translation>
+        </message>
+        <message>
+            <source>persons erased: {n}</source>
+            <translation type="unfinished" >personnes effacées : {n}</translation>
+        </message>
+        <message>
+            <source>left out as erased: {n}</source>
+            <translation type="unfinished" >omis car effacés : {n}</translation>
+        </message>
+        <message>
+            <source>Files of stations (*.acus)</source>
+            <translation type="unfinished" >Fichiers de postes (*.acus)</translation>
         </message>
     </context>
 </TS>

@@ -276,6 +276,12 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("store", "backup", "--out", out),
         ("store", "restore", out),
         ("store", "empty-trash"),
+        ("store", "stations", "--name", "B"),
+        ("store", "revoke", "B"),
+        ("store", "renew"),
+        ("store", "results", "--out", out),
+        ("store", "station", "--out", out),
+        ("store", "gather", out),
     ]
     for words in doors:
         assert "a question was not answered" in acus(*words, code=2), words

@@ -29,7 +29,8 @@ NEEDS_MORE = {
     "transform export", "transform show", "urdf import", "camera test", "library remove",
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
-    "results export", "session delete", "session restore", "store restore",
+    "results export", "session delete", "session restore", "store gather", "store restore",
+    "store revoke",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
@@ -123,6 +124,10 @@ EXAMPLES = {
     "store backup": ("--out", "all.acusbackup"),
     "store empty-trash": (),
     "store rebuild": (),
+    "store renew": (),
+    "store results": ("--out", "results.acus"),
+    "store station": ("--out", "course.acus"),
+    "store stations": (),
     "store status": (),
     "study": ("list",),
     "urdf export": ("--out", "robot.urdf"),

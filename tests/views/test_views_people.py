@@ -17,10 +17,12 @@ from app.session.header import SessionHeader
 from app.session.people import People
 from app.session.recorder import Recorder
 from app.session.recording import read_recording
+from app.session.results_file import write_results as gathering_results
 from app.session.roster import RosterLine
 from app.session.sidecar import file_digest, write_summary
 from app.session.signature import signature_file, signed
 from app.session.station import StationKey
+from app.session.stations import set_name
 from app.session.summary import Summary
 from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
@@ -540,6 +542,51 @@ def test_reports_of_the_group_and_of_the_student_chosen_are_written(
     assert settle(lambda: (tmp_path / "group.pdf").exists() and (tmp_path / "ada.pdf").exists())
     for name in ("group.pdf", "ada.pdf"):
         assert (tmp_path / name).read_bytes().startswith(b"%PDF")
+
+
+def test_results_of_a_station_are_written_and_brought_together_in_the_window(
+    window, feature, settle, tmp_path, monkeypatch
+):
+    folder = feature.context.services.sessions()
+    with monkeypatch.context() as other:  # another station, that wrote its results
+        other.setenv("ACUS_DATA", str(tmp_path / "other"))
+        set_name("Theatre 2")
+        record(tmp_path / "records", "b", "Bob", 80.0)
+        gathering_results(tmp_path / "b.acus", tmp_path / "records")
+    feature.show()
+    feature.stations.gather([tmp_path / "b.acus"])
+    assert settle(lambda: feature.dialog is not None)
+    asked = feature.dialog
+    assert asked.text() == "Let these stations in?"
+    assert "Theatre 2, which is not known here" in asked.informativeText()
+    next(b for b in asked.buttons() if b.text() == "Let them in").click()
+    assert settle(lambda: feature.dialog is not None and feature.dialog is not asked)
+    text = feature.dialog.findChild(QPlainTextEdit).toPlainText()
+    assert text == "Theatre 2: 1 attempt added, 0 here already"
+    feature.dialog.close()
+    assert (folder / "b.mcap").exists()
+    said = []
+    feature.noted.connect(said.append)
+    record(folder, "a", "Ada", 72.0)
+    feature.stations.write_results(tmp_path / "a.acus")
+    assert settle(lambda: bool(said))
+    assert said[0] == f"1 attempt saved in {tmp_path / 'a.acus'}"
+    feature.stations.write_course(tmp_path / "c.acus")
+    assert settle(lambda: len(said) > 1)
+    assert (tmp_path / "c.acus").stat().st_mode & 0o777 == 0o600
+
+
+def test_stations_are_the_instructors(window, feature, settle, tmp_path):
+    People().set_instructor("correct horse battery")
+    feature.look()
+    settle(lambda: not ACCESS.may_manage)
+    said = []
+    feature.failed.connect(said.append)
+    feature.stations.gather([tmp_path / "b.acus"])
+    feature.stations.write_results(tmp_path / "a.acus")
+    feature.stations.choose_files()
+    assert len(said) == 3
+    assert not (tmp_path / "a.acus").exists()
 
 
 def left_of_an_attempt(services, student):

@@ -233,7 +233,7 @@ class DebriefController(QObject):
             verdict = verdict_of(find(self._folder, shown.id))
         except SessionError:
             return shown  # the record has gone: what is shown is from memory
-        if verdict == "verified":
+        if verdict.partition(" (")[0] == "verified":
             return shown
         words = tr("not verified: the record is {verdict}", verdict=verdict)
         return replace(shown, problems=(words, *shown.problems))

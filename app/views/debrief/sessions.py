@@ -64,6 +64,7 @@ _SIGNED_LOOKS: Final = {
     "altered": (theme.BAD, "✖"),
     "unsigned": (theme.TEXT_DIM, "•"),
     "admitted": (theme.GOOD, "▲"),
+    "revoked": (theme.BAD, "✖"),
 }
 _STATE_LOOKS: Final = {
     "ended": (theme.TEXT, "✔"),
@@ -230,7 +231,11 @@ class SessionsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
             return QColor(theme.now(_STATE_LOOKS.get(summary.state, (theme.TEXT, ""))[0]))
         if role == Qt.ItemDataRole.ForegroundRole and column == SIGNED:
-            return QColor(theme.now(_SIGNED_LOOKS.get(summary.signature, (theme.TEXT, ""))[0]))
+            return QColor(
+                theme.now(
+                    _SIGNED_LOOKS.get(summary.signature.partition(" (")[0], (theme.TEXT, ""))[0]
+                )
+            )
         return None
 
 
@@ -264,8 +269,13 @@ def signature_word(verdict: str) -> str:
         "altered": tr("altered"),
         "unsigned": tr("unsigned"),
         "admitted": tr("admitted"),
+        "revoked": tr("revoked"),
     }
-    return f"{_SIGNED_LOOKS[verdict][1]} {words[verdict]}" if verdict in words else ""
+    kind, _, station = verdict.partition(" (station ")
+    if kind not in words:
+        return ""
+    where = tr(" (station {name})", name=station.removesuffix(")")) if station else ""
+    return f"{_SIGNED_LOOKS[kind][1]} {words[kind]}{where}"
 
 
 def exercise_text(summary: Summary) -> str:
@@ -571,7 +581,9 @@ class SessionsPage(QWidget):
         self.export.setEnabled(bool(readable) and manage and not deleted)
         self.delete_button.setEnabled(bool(chosen) and manage and not deleted)
         self.undo.setEnabled(bool(self._deleted) and manage)
-        unsigned = frozenset(s.id for s in self._listed.summaries if s.signature == "unsigned")
+        open_ = ("unsigned", "revoked")
+        listed = self._listed.summaries
+        unsigned = frozenset(s.id for s in listed if s.signature.partition(" (")[0] in open_)
         self.remarks.follow(self._listed.said, self._listed.held, unsigned)
         if deleted:
             self.remarks.button.hide()

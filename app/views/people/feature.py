@@ -50,6 +50,7 @@ from app.views.people.pages import (
     text_dialog,
 )
 from app.views.people.results_report import group_report, student_report, write_report
+from app.views.people.stations import StationDoors, StationExchange
 from app.views.shell.feature import Context, Feature
 
 T = TypeVar("T")
@@ -81,6 +82,7 @@ class PeopleFeature(Feature):
 
     Attributes:
         page: board, students and courses.
+        stations: results of several stations, written and brought together.
         dialog: the one that was opened last.
     """
 
@@ -118,6 +120,7 @@ class PeopleFeature(Feature):
         with self._shell.made_for(STAFF):
             save = add_entries(menu, ((tr("Back up everything…"), "", self.back_up),))[0]
         self._actions = show, student, instructor, leave, save
+        self.stations = StationExchange(self.page.board.stations, self._doors())
         self._connect()
         ACCESS.changed.connect(self._follow)
         self._follow()
@@ -552,6 +555,19 @@ class PeopleFeature(Feature):
             self._beside(save, tell, tr("Backing up"))
 
     # --- inside -----------------------------------------------------------------------------------
+    def _doors(self) -> StationDoors:
+        return StationDoors(
+            self._folder,
+            self._people,
+            self._may,
+            self._beside,
+            self.noted.emit,
+            self._tell,
+            self._open,
+            self._changed,
+            lambda: self._shell.dialog_parent,
+        )
+
     def _connect(self) -> None:
         board, students, tab = self.page.board, self.page.students, self.page.courses
         self.page.closed.connect(self.context.leave_page)
@@ -601,6 +617,7 @@ class PeopleFeature(Feature):
         leave.setEnabled(here)
         save.setEnabled(ACCESS.may_manage)
         self.page.set_managing(ACCESS.may_manage)
+        self.stations.set_managing(ACCESS.may_manage)
         if not show.isEnabled() and self.page.isVisible():
             self.context.leave_page()
         elif self.page.isVisible():

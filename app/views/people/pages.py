@@ -156,7 +156,9 @@ class BoardTab(QWidget):
             top.addWidget(words)
             top.addWidget(box)
         top.addStretch(1)
-        self._leaving = (self.form, self.semicolons, self.export)
+        self.stations = button(tr("Stations"))
+        self.stations.setToolTip(tr("Bring the results of several stations together"))
+        self._leaving = (self.form, self.semicolons, self.export, self.stations)
         for widget in self._leaving:
             top.addWidget(widget)
         column = QVBoxLayout(self)

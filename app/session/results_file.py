@@ -1,0 +1,262 @@
+"""Writing what a station gives to the others: its results, or the course for a station."""
+
+from __future__ import annotations
+
+import json
+import os
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.core.files import beside, remove, step, sweep
+from app.core.files import replace as put_in_place
+from app.core.messages import sentence
+from app.core.progress import Progress
+from app.session.archive import own_files
+from app.session.backup_file import ArchiveError, may_hold
+from app.session.course import Course, courses_folder
+from app.session.errors import SessionError
+from app.session.journal import Journal, removal
+from app.session.people import PEOPLE, People, tables
+from app.session.said import (
+    CountedAttempt,
+    counted_attempts,
+    counter_of,
+    signed_remarks,
+    take_stock,
+    tombstones,
+)
+from app.session.school_file import (
+    COURSE,
+    RESULTS,
+    SchoolManifest,
+    Traveller,
+    attempts_of,
+    packed_digest,
+    write_manifest,
+)
+from app.session.sidecar import cached, file_digest
+from app.session.signature import Signed, read_signature, signature_text
+from app.session.station import StationKey
+from app.session.stations import KnownStation, name_of_station, stations_of
+from app.session.store import SUFFIX, settled
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenFile:
+    """What a file for other stations holds.
+
+    Attributes:
+        attempts: how many.
+        remarks: how many.
+        erased: tombstones.
+        people: students.
+        courses: how many.
+        left_out: ids of attempts whose record or signature is not what it was.
+    """
+
+    attempts: int = 0
+    remarks: int = 0
+    erased: int = 0
+    people: int = 0
+    courses: int = 0
+    left_out: tuple[str, ...] = ()
+
+
+def write_results(
+    out: Path,
+    folder: Path,
+    course: Course | None = None,
+    people: People | None = None,
+    progress: Progress | None = None,
+) -> WrittenFile:
+    """Write the results of this station into one file, whole or not at all.
+
+    Finished attempts that this station signed, with what was said of attempts here, and who was
+    erased; what it has from other stations those give themselves.
+
+    Args:
+        out: the file.
+        folder: of the records.
+        course: only attempts at its exercises; None for all.
+        people: of this station.
+        progress: reports, and may cancel; nothing is left then.
+
+    Raises:
+        ArchiveError: if it cannot be written.
+    """
+    people, progress = people or People(), progress or Progress()
+    key = StationKey.of(people.folder)
+    settled(folder)
+    take_stock(folder, people, key, progress.part(0.0, 0.3))
+
+    def fill(archive: zipfile.ZipFile) -> WrittenFile:
+        with people.database.read() as connection:
+            every = counted_attempts(connection)
+            remarks = list(signed_remarks(connection).values())
+            stones, counter = tombstones(connection), counter_of(connection)
+        exercises = None if course is None else {item.exercise for item in course.items}
+        wanted = {
+            name for name, one in every.items() if exercises is None or one.exercise in exercises
+        }
+        own = attempts_of(
+            one for name, one in every.items() if name in wanted and one.station == key.station
+        )
+        files: dict[str, str] = {}
+        left: list[str] = []
+        taken: list[str] = []
+        for number, one in enumerate(own):
+            progress.report(0.3 + 0.7 * number / len(own), one.attempt)
+            digests = _pack(archive, folder, one, key)
+            files |= digests
+            path = folder / f"{one.attempt}{SUFFIX}"
+            (taken if digests else left).append(one.attempt)
+            if not digests and not path.exists():
+                left.pop()  # deleted here: it is not this station's result any more
+        mine = [
+            one
+            for one in remarks
+            if one.station == key.station and (exercises is None or one.attempt in wanted)
+        ]
+        manifest = SchoolManifest(
+            RESULTS,
+            _sender(people, key, counter),
+            tuple(key.succession()),
+            files,
+            tuple(one for one in own if one.attempt in set(taken)),
+            tuple(mine),
+            tuple(stones),
+        )
+        write_manifest(archive, manifest, key)
+        return WrittenFile(len(taken), len(mine), len(stones), left_out=tuple(left))
+
+    return _whole(out, people, fill)
+
+
+def write_course(
+    out: Path,
+    folder: Path,
+    names: bool = False,
+    pins: bool = False,
+    people: People | None = None,
+    progress: Progress | None = None,
+) -> WrittenFile:
+    """Write the course for a station into one file, whole or not at all.
+
+    People by key and pseudonym with their groups, courses, own exercises, and known stations.
+
+    Args:
+        out: the file.
+        folder: of the records.
+        names: of the students too.
+        pins: hashes of their PINs too.
+        people: of this station.
+        progress: reports, and may cancel; nothing is left then.
+
+    Raises:
+        ArchiveError: if it cannot be written.
+    """
+    people, progress = people or People(), progress or Progress()
+    key = StationKey.of(people.folder)
+    settled(folder)
+    take_stock(folder, people, key, progress.part(0.0, 0.3))
+
+    def fill(archive: zipfile.ZipFile) -> WrittenFile:
+        with people.database.read() as connection:
+            stones, counter = tombstones(connection), counter_of(connection)
+        known = tuple(stations_of(people).values())
+        students = tuple(_travellers(people, names, pins))
+        members = [*_courses(people), *own_files()]
+        files, courses = {}, 0
+        for number, (name, path) in enumerate(members):
+            progress.report(0.3 + 0.7 * number / len(members), path.name)
+            if may_hold(name):
+                step("pack", path)
+                files[name] = packed_digest(path.read_bytes(), name, archive)
+                courses += name.startswith("people/")
+        manifest = SchoolManifest(
+            COURSE,
+            _sender(people, key, counter),
+            tuple(key.succession()),
+            files,
+            tombstones=tuple(stones),
+            people=students,
+            stations=known,
+        )
+        write_manifest(archive, manifest, key)
+        return WrittenFile(erased=len(stones), people=len(students), courses=courses)
+
+    return _whole(out, people, fill)
+
+
+# --- inside ---------------------------------------------------------------------------------------
+def _whole(
+    out: Path, people: People, fill: Callable[[zipfile.ZipFile], WrittenFile]
+) -> WrittenFile:
+    """Write an archive beside its place, for this user only, and put it there once it is whole."""
+    part = beside(out)
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        sweep(out.parent)
+        with ExitStack() as stack:
+            with suppress(SessionError):  # a folder of people that can only be read
+                stack.enter_context(Journal(people.folder, [removal(part)]))
+            stack.callback(remove, part)
+            step("write", part)
+            with zipfile.ZipFile(part, "x", zipfile.ZIP_STORED) as archive:
+                part.chmod(0o600)
+                written = fill(archive)
+            with part.open("rb+") as stream:
+                os.fsync(stream.fileno())
+            put_in_place(part, out)
+    except OSError as error:
+        why = error.strerror or error
+        raise ArchiveError(sentence("cannot write {out}: {reason}", out=out, reason=why)) from error
+    return written
+
+
+def _sender(people: People, key: StationKey, counter: int) -> KnownStation:
+    return KnownStation(key.station, name_of_station(people, key), key.public, counter)
+
+
+def _pack(
+    archive: zipfile.ZipFile, folder: Path, attempt: CountedAttempt, key: StationKey
+) -> dict[str, str]:
+    """Pack a record with its signature; nothing where one of them is not what it was."""
+    path = folder / f"{attempt.attempt}{SUFFIX}"
+    if not path.exists():
+        return {}
+    step("pack", path)
+    document, check = read_signature(path, key)
+    if check.verdict is not Signed.VERIFIED or document["record"] != file_digest(path):
+        return {}
+    # those of earlier versions have no signature that others could verify
+    parts = {".sig": signature_text(document, key).encode(), SUFFIX: path.read_bytes()}
+    kept = cached(path)
+    if kept is not None and kept.fits(path):
+        summary = json.dumps(kept.summary.document(), ensure_ascii=False, allow_nan=False)
+        parts[".json"] = summary.encode("utf-8", "surrogatepass")
+    names = {f"records/{attempt.attempt}{ending}": data for ending, data in parts.items()}
+    return {name: packed_digest(data, name, archive) for name, data in names.items()}
+
+
+def _travellers(people: People, names: bool, pins: bool) -> Iterator[Traveller]:
+    from sqlalchemy import select
+
+    hashes: dict[str, str] = {}
+    if pins and (people.folder / PEOPLE).exists():
+        persons = tables()["persons"].c
+        with people.database.read() as connection:
+            hashes = {
+                str(key): str(pin)
+                for key, pin in connection.execute(select(persons.key, persons.pin))
+            }
+    for one in people.everybody(names):
+        yield Traveller(one.key, one.pseudonym, one.groups, one.name, hashes.get(one.key, ""))
+
+
+def _courses(people: People) -> Iterator[tuple[str, Path]]:
+    for path in sorted(courses_folder(people.folder).glob("*.yaml")):
+        yield f"people/courses/{path.name}", path
