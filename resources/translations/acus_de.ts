@@ -13253,8 +13253,8 @@ Set table and slices, then press the pedal (S).</source>
 Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</translation>
         </message>
         <message>
-            <source>Control scan {n} at {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
-            <translation type="unfinished">Kontrollscan {n} bei {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
+            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
+            <translation type="unfinished">Kontrollscan {n} bei {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
             <source>Messages</source>

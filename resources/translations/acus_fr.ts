@@ -13253,8 +13253,8 @@ Set table and slices, then press the pedal (S).</source>
 Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
-            <source>Control scan {n} at {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
-            <translation type="unfinished">Scan de contrôle {n} à {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
+            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
+            <translation type="unfinished">Scan de contrôle {n} à {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
             <source>Messages</source>

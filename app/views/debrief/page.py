@@ -114,7 +114,7 @@ class ScanList(QTableWidget):
         self.setRowCount(len(self._scans))
         self.setVisible(bool(self._scans))
         for row, scan in enumerate(self._scans):
-            for column, text in enumerate(cells(scan, review.origin)):
+            for column, text in enumerate(cells(scan, review.clock_at(scan.time))):
                 item = QTableWidgetItem(text)
                 if column == _COLUMNS - 1:
                     item.setTextAlignment(
@@ -124,8 +124,8 @@ class ScanList(QTableWidget):
                 self.setItem(row, column, item)
 
 
-def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
-    """Words of one row."""
+def cells(scan: ControlScan, shown: float) -> tuple[str, ...]:
+    """Words of one row; `shown` on the student's clock as it was taken [s]."""
     low, high = scan.order.range_mm
     slices = tr(
         "{n} × {mm:g} mm, {low} to {high}",
@@ -139,7 +139,7 @@ def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
         Seen.SHAFT: tr("▲ shaft only"),
         Seen.NOTHING: tr("✖ no needle"),
     }
-    time = clock_text(scan.time - origin)
+    time = clock_text(shown)
     return str(scan.number), time, slices, shows[scan.seen], number(scan.dose, ".1f")
 
 
@@ -446,7 +446,7 @@ class DebriefPage(QWidget):
             self.replayer.begin(0.0, 0.0)
         else:
             self.replayer.begin(motion.end, float(motion.time[motion.last]))
-        self.bar.begin()
+        self.bar.begin(review.shown_time)
         self.bar.setVisible(self.replayer.end > 0.0)
 
     def _show_time(self, time: float) -> None:
