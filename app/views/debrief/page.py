@@ -275,6 +275,7 @@ class DebriefPage(QWidget):
         self._proposal: Proposal | None = None
         self._ghost: Ghost | None = None
         self._alignment = Alignment.TIME
+        self._dragged = False
         self._title, self._facts, self.conditions = (
             PlainLabel(self),
             PlainLabel(self),
@@ -576,6 +577,7 @@ class DebriefPage(QWidget):
         splitter.addWidget(scrolled)
         splitter.addWidget(right)
         splitter.setStretchFactor(1, 1)
+        splitter.splitterMoved.connect(self._note_drag)
         splitter.setSizes([_LEFT, 900])
         self._inner.setSizes([_VIEWS, 400])
         return splitter
@@ -673,6 +675,12 @@ class DebriefPage(QWidget):
         super().hideEvent(event)
         self.replayer.pause()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the words their share, until somebody has dragged the border."""
+        super().resizeEvent(event)
+        if not self._dragged:
+            self._share_width()
+
     def suit_room(self) -> None:
         """Write anew who it was, or hide it; take the present colours and size of the text."""
         self._share_width()
@@ -681,6 +689,9 @@ class DebriefPage(QWidget):
             self._facts.setText(facts(self._review))
             self._show_words(self._review)
             self.table.show_score(self._review.score)
+
+    def _note_drag(self) -> None:
+        self._dragged = True
 
     def _share_width(self) -> None:
         left = theme.px(_LEFT)
