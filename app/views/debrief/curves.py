@@ -21,7 +21,7 @@ from app.views.exercise.felt import origin_word
 from app.views.exercise.stages import phase_word
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, number, tr
+from app.views.kit.text import literal, number, tr, translated
 from app.views.kit.themes import DARK
 
 SHORTEST_S: Final = 0.05
@@ -291,15 +291,14 @@ def _mark_text(mark: TimeMark, share: float) -> pg.TextItem:
 
     Numbers of scans stand on the uppermost line, words of other events above the states' names.
     """
+    sign = mark.sign_of(translated(mark.label))
     across = 0.0 if share < 1.0 / 3.0 else 0.5 if share < 2.0 / 3.0 else 1.0
     if mark.kind == "scan":
-        return pg.TextItem(
-            mark.sign, color=theme.IMAGE_TEXT, anchor=(min(0.9, max(0.1, across)), 0)
-        )
+        return pg.TextItem(sign, color=theme.IMAGE_TEXT, anchor=(min(0.9, max(0.1, across)), 0))
     fill = QColor(theme.IMAGE_GROUND)
-    text = pg.TextItem(mark.sign, color=theme.IMAGE_TEXT, anchor=(across, 2.1), fill=fill)
+    text = pg.TextItem(sign, color=theme.IMAGE_TEXT, anchor=(across, 2.1), fill=fill)
     text.setZValue(5)
-    text.setToolTip(literal(mark.label))
+    text.setToolTip(literal(translated(mark.label)))
     return text
 
 

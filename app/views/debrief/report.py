@@ -208,9 +208,10 @@ def _paint_marks(painter: QPainter, area: QRectF, marks: Sequence[TimeMark], end
         pen.setDashPattern([4.0, 4.0])
         painter.setPen(pen)
         painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))
-        width = painter.fontMetrics().horizontalAdvance(mark.sign)
+        sign = mark.sign_of(translated(mark.label))
+        width = painter.fontMetrics().horizontalAdvance(sign)
         left = min(x - 4.0, area.right() - width)  # nothing of it is cut at the edge
-        painter.drawText(QPointF(left, area.top() - 1.5), mark.sign)
+        painter.drawText(QPointF(left, area.top() - 1.5), sign)
 
 
 def _x(area: QRectF, time: float, end: float) -> float:

@@ -365,7 +365,7 @@ def proposal_words(proposal: Proposal) -> str:
     cost = (
         tr(
             " {metric} cost most: {points}.",
-            metric=proposal.metric,
+            metric=declared(proposal.metric),
             points=points_words(proposal.points),
         )
         if proposal.metric
@@ -374,13 +374,13 @@ def proposal_words(proposal: Proposal) -> str:
     next_one = tr("Next: {title}.", title=declared(proposal.title))
     words = {
         ProposalReason.COURSE: next_one
-        + tr(" It follows in the course {course}.", course=proposal.course),
+        + tr(" It follows in the course {course}.", course=declared(proposal.course)),
         ProposalReason.LEVEL: next_one
         + tr(" This one is passed; it is of level {level}.", level=proposal.level),
         ProposalReason.WEAKNESS: next_one
         + tr(
             " This one is passed; {metric} cost most here ({points}), and counts there.",
-            metric=proposal.metric,
+            metric=declared(proposal.metric),
             points=points_words(proposal.points),
         ),
         ProposalReason.AGAIN: tr("The same again: it is not passed yet.") + cost,

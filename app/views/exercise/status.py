@@ -34,7 +34,7 @@ from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ElidedLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 
 LONGEST: Final = 200
@@ -83,7 +83,7 @@ class MessageList(QListWidget):
         self._clock = self._clock.after(event)
         known = self._clock.began is not None and event.time >= self._clock.began
         when = clock_text(self._clock.at(event.time)) + "  " if known else ""
-        line = f"{symbol} {when}{event.message}"
+        line = f"{symbol} {when}{translated(event.message)}"
         item = QListWidgetItem(NAMES.without_names(line))
         item.setData(_LINE, line)
         item.setData(_COLOUR, colour)
