@@ -29,6 +29,8 @@ _WITH_PYDICOM: Final = ("pydicom", "pydicom.filereader", "app.imaging.enhanced")
 """What reads headers with pydicom, which takes half a second to load."""
 
 _FIRST_GROUPS: Final = (0x0002, 0x0008)
+NOT_DICOM: Final = sentence("not a DICOM file")
+
 _DICOMDIR: Final = b"1.2.840.10008.1.3.10"
 
 _MARKS: Final = {
@@ -100,27 +102,27 @@ def file_headers(path: Path, without_pydicom: bool = False) -> tuple[SliceHeader
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):  # opening a pipe would wait for ever
-            return Ignored(path, "not a regular file")
+            return Ignored(path, sentence("not a regular file"))
         with path.open("rb") as stream:
             return _read(path, stream, without_pydicom)
     except OSError as error:
-        return Ignored(path, f"cannot be read: {_why(error)}")
+        return Ignored(path, sentence("cannot be read: {why}", why=_why(error)))
     except FileDamagedError as error:
-        return Ignored(path, f"damaged DICOM file: {error}")
+        return Ignored(path, sentence("damaged DICOM file: {error}", error=error))
 
 
 def _read(path: Path, stream: BinaryIO, without_pydicom: bool) -> tuple[SliceHeader, ...] | Ignored:
     head = stream.read(512)
     preamble = head[PREAMBLE - 4 : PREAMBLE] == b"DICM"
     if not preamble and not starts_like_dicom(head):
-        return Ignored(path, "empty file" if not head else "not a DICOM file")
+        return Ignored(path, sentence("empty file") if not head else NOT_DICOM)
     if _DICOMDIR in head:
-        return Ignored(path, "DICOM directory (DICOMDIR), not an image")
+        return Ignored(path, sentence("DICOM directory (DICOMDIR), not an image"))
     stream.seek(0)
     headers = _headers(path, stream, not preamble, without_pydicom)
     if not headers:
-        what = "DICOM, but truncated or of no series (no SeriesInstanceUID)"
-        return Ignored(path, what if preamble else "not a DICOM file")
+        what = sentence("DICOM, but truncated or of no series (no SeriesInstanceUID)")
+        return Ignored(path, what if preamble else NOT_DICOM)
     return headers
 
 

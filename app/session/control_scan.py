@@ -30,7 +30,7 @@ KIND: Final = "scan"
 VERSION: Final = 2
 """Of the event's data."""
 
-TEACHING_ESTIMATE: Final = "teaching estimate"
+TEACHING_ESTIMATE: Final = sentence("teaching estimate")
 """Stands wherever a dose is shown: it is no dose of any scanner."""
 
 
@@ -75,7 +75,7 @@ class ControlScan:
             "streak": self.streak,
             "seen": self.seen.value,
             "dose_mgy_cm": self.dose,
-            "dose_note": TEACHING_ESTIMATE,
+            "dose_note": str(TEACHING_ESTIMATE),
             "hub_lps_mm": self.needle.hub_mm.tolist(),
             "tip_lps_mm": self.needle.tip_mm.tolist(),
             "shift_lps_mm": self.shift_mm.tolist(),

@@ -61,6 +61,7 @@ def expert_beside(own: Review) -> Review | None:
         curves=curves(samples, placed),
         tip=at_rest(samples, placed),
         origin=0.0,
+        clock=None,
         measured_force=None,
     )
 

@@ -19,6 +19,9 @@ ID_PATTERN: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._-]{0,63}")
 TRASH: Final = ".trash"
 """Folder inside that of the records that holds what was deleted, until somebody empties it."""
 
+ANONYMOUS: Final = "anonymous"
+"""Stands in a record for a student who gave no pseudonym."""
+
 LONGEST_PSEUDONYM: Final = 64
 """Characters."""
 
@@ -132,4 +135,4 @@ def checked_id(session_id: str) -> str:
 def pseudonym(student: str) -> str:
     """Return the student's pseudonym on one line, `anonymous` if empty, at most 64 characters."""
     text = " ".join("".join(c if c.isprintable() else " " for c in student).split())
-    return text[:LONGEST_PSEUDONYM] or "anonymous"
+    return text[:LONGEST_PSEUDONYM] or ANONYMOUS

@@ -23,6 +23,7 @@ from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.scoring.tolerance import Bands
 from app.session.along_path import GAP_S, RUNS, AlongPath
+from app.session.attempt_clock import AttemptClock
 from app.session.machine import State
 from app.session.planned import plan_sentences
 
@@ -91,7 +92,8 @@ class AttemptEvidence:
         tolerances: of the exercise, by metric.
         gate_mm: so far from its place in the CT the target may be while the needle is pushed.
         unsure_mm: radius round the tip that holds the true one with 95 %; 0 where not known.
-        origin: monotonic time from which moments are counted [s].
+        origin: monotonic time of the first sample [s].
+        clock: of the attempt, by which moments are told; None counts them from `origin`.
         met: what the needle met.
         risks: how near it came to structures of risk.
         planned: what a planner says of the student's own path; None where it was given.
@@ -105,12 +107,17 @@ class AttemptEvidence:
     gate_mm: float = 2.0
     unsure_mm: float = 0.0
     origin: float = 0.0
+    clock: AttemptClock | None = None
     met: Sequence[Met] = ()
     risks: Sequence[RiskMark] = ()
     planned: JudgedPlan | None = None
     scans: Sequence[float] = ()
     depth_error_mm: float | None = None
     depth_sd_mm: float = 0.0
+
+    def moment(self, time: float) -> str:
+        """Return a time since the first sample [s] as the student's clock showed it."""
+        return moment(time if self.clock is None else self.clock.at(self.origin + time))
 
     @property
     def line_mm(self) -> float:
@@ -263,7 +270,7 @@ def _depth(past: AttemptEvidence) -> tuple[str, ...]:
             sentence(
                 "The tip ended {mm:.1f} mm too deep: it passed the target's depth at {clock}.",
                 mm=error,
-                clock=moment(float(time[before[0] + 1])),
+                clock=past.moment(float(time[before[0] + 1])),
             ),
         )
     if -error <= LEAST_MM:
@@ -275,7 +282,7 @@ def _depth(past: AttemptEvidence) -> tuple[str, ...]:
                 "The tip was {mm:.1f} mm too deep at {clock}, then drawn back to {short:.1f} mm "
                 "short of the target.",
                 mm=-deepest,
-                clock=moment(float(time[int(np.argmin(left))])),
+                clock=past.moment(float(time[int(np.argmin(left))])),
                 short=-error,
             ),
         )
@@ -286,7 +293,7 @@ def _depth(past: AttemptEvidence) -> tuple[str, ...]:
         sentence(
             "The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.",
             mm=-error,
-            clock=moment(float(time[at])),
+            clock=past.moment(float(time[at])),
         ),
     )
 
@@ -366,7 +373,11 @@ def _force(past: AttemptEvidence) -> tuple[str, ...]:
     if not np.isfinite(force).any() or not np.nanmax(force) > 0.0:
         return ()
     at = int(np.nanargmax(force))
-    newton, clock, depth = float(force[at]), moment(float(way.time[at])), float(way.depth_mm[at])
+    newton, clock, depth = (
+        float(force[at]),
+        past.moment(float(way.time[at])),
+        float(way.depth_mm[at]),
+    )
     if not isfinite(depth) or depth < 0.0:
         return (
             sentence(
@@ -386,7 +397,7 @@ def _force(past: AttemptEvidence) -> tuple[str, ...]:
 def _tissues(past: AttemptEvidence, kinds: Sequence[str]) -> tuple[str, ...]:
     """Say what of some kinds was met, where and when."""
     return tuple(
-        sentence("{met}, at {clock}.", met=met.sentence, clock=moment(met.time - past.origin))
+        sentence("{met}, at {clock}.", met=met.sentence, clock=past.moment(met.time - past.origin))
         for met in [met for met in past.met if met.kind in kinds and met.counts][:MOST_MET]
     )
 
@@ -396,7 +407,7 @@ def _risk(past: AttemptEvidence) -> tuple[str, ...]:
     if not past.risks:
         return ()
     mark = min(past.risks, key=lambda one: one.closest_mm - one.limit_mm)
-    clock, depth = moment(mark.time - past.origin), mark.depth_mm
+    clock, depth = past.moment(mark.time - past.origin), mark.depth_mm
     if mark.closest_mm <= 0.0:
         return (
             sentence(

@@ -27,6 +27,7 @@ from app.scoring.risks import RiskMark
 from app.scoring.score import with_shown
 from app.scoring.tolerance import Bands
 from app.session.along_path import AlongPath
+from app.session.attempt_clock import AttemptClock
 from app.session.calibration_flag import CalibrationFlags
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
@@ -186,7 +187,8 @@ class Review:
             did not; None if there was none: then the force is the estimate in `curves`.
         renders: whether something could push the hand; without it there is no curve of the force.
         control_scans: those with slices, in order.
-        origin: moment that their times are told from [s].
+        origin: moment of the first sample [s], from which curves, spans, marks and motion count.
+        clock: of the attempt, by which the student is told every time.
         ct: the CT, and how it was read.
         risks: structures of risk, and how near the needle came.
         met: what the needle met; None where the record says nothing of it.
@@ -226,6 +228,7 @@ class Review:
     renders: bool = True
     control_scans: tuple[ControlScan, ...] = ()
     origin: float = 0.0
+    clock: AttemptClock | None = None
     ct: CtFacts = UNKNOWN_CT
     risks: tuple[RiskMark, ...] = ()
     met: tuple[Met, ...] | None = None
@@ -245,6 +248,18 @@ class Review:
         if not self.touches or self.motion is None or not len(self.motion):
             return None
         return marks_at(self.touches, self.origin + float(self.motion.time[row]))
+
+    def clock_at(self, moment: float) -> float:
+        """Return what the student's clock showed at a moment [s]."""
+        return moment - self.origin if self.clock is None else self.clock.at(moment)
+
+    def shown_time(self, time: float) -> float:
+        """Return what the student's clock showed at a time of the curves [s]."""
+        return self.clock_at(self.origin + time)
+
+    def curve_time(self, shown: float) -> float:
+        """Return the time of the curves at which the student's clock showed so many seconds [s]."""
+        return shown if self.clock is None else self.clock.moment(shown) - self.origin
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -295,6 +310,9 @@ def review(recording: Recording) -> Review:
     measured = np.isin(samples.depth_source, FROM_CAMERAS)
     figures = only_measured(curves(samples, placed), measured)
     origin = float(samples.time[0]) if len(samples.time) else 0.0
+    clock = AttemptClock.of(recording.events)
+    if clock.began is None:  # of a damaged record, or of an attempt that did not come so far
+        clock = AttemptClock(origin)
     score = None if withheld else _shown(recording, found)
     tolerances = judged_by(recording, found.standing)[0]
     rows = () if score is None else score.rows
@@ -305,6 +323,7 @@ def review(recording: Recording) -> Review:
         gate_mm=rings(tolerances)[0] / MILLIMETRE,
         unsure_mm=(samples.tip_radius() or 0.0) / MILLIMETRE,
         origin=origin,
+        clock=clock,
         met=tissues_met(recording.events) or (),
         risks=risk_marks(recording.events),
         planned=judged_plan(recording.events),
@@ -337,6 +356,7 @@ def review(recording: Recording) -> Review:
         renders=renders_force(recording.metadata),
         control_scans=recording.control_scans(),
         origin=origin,
+        clock=clock,
         ct=recording.ct,
         risks=risk_marks(recording.events),
         met=tissues_met(recording.events),

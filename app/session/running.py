@@ -9,6 +9,7 @@ from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.imaging.scan_order import ScanOrder
 from app.session import control_scan, machine
+from app.session.abort_reasons import abort_words
 from app.session.attempt_log import AttemptLog
 from app.session.errors import IllegalTransitionError
 from app.session.inputs import LoopInputs
@@ -309,5 +310,5 @@ class RunningAttempt:
     def _say_state(self, now: float) -> None:
         attempt = self.attempt
         aborted = attempt.state is machine.State.ABORTED
-        message = f"aborted: {attempt.reason}" if aborted else attempt.state.value
+        message = abort_words(attempt.reason) if aborted else attempt.state.value
         self.say("abort" if aborted else "state", message, now, {"state": attempt.state.value})

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.events import Event
+from app.session.abort_reasons import abort_words
 
 _COUNTED: Final = {"scan": "▼", "touch": "●"}
 """Kinds of events that are numbered, and the sign that stands before their number."""
@@ -39,10 +40,14 @@ class TimeMark:
         """Return what stands on a plot: the number of a scan or a touch, or the words, cut
         short.
         """
+        return self.sign_of(self.label)
+
+    def sign_of(self, label: str) -> str:
+        """Return what stands on a plot where the label is said in other words."""
         if self.kind in _COUNTED:
-            return f"{_COUNTED[self.kind]} {self.label}"
-        whole = len(self.label) <= LONGEST_SIGN
-        return f"! {self.label if whole else self.label[: LONGEST_SIGN - 1].rstrip() + '…'}"
+            return f"{_COUNTED[self.kind]} {label}"
+        whole = len(label) <= LONGEST_SIGN
+        return f"! {label if whole else label[: LONGEST_SIGN - 1].rstrip() + '…'}"
 
 
 def spans(time: FloatArray, state: NDArray[np.str_]) -> tuple[Span, ...]:
@@ -63,6 +68,10 @@ def marks(events: Sequence[Event], origin: float, kinds: Sequence[str]) -> tuple
     for event in events:
         if event.kind in counts:
             counts[event.kind] += 1
-            label = str(counts[event.kind]) if event.kind in _COUNTED else event.message
+            label = str(counts[event.kind]) if event.kind in _COUNTED else _words(event)
             found.append(TimeMark(event.time - origin, event.kind, label))
     return tuple(found)
+
+
+def _words(event: Event) -> str:
+    return abort_words(event.message) if event.kind == "abort" else event.message

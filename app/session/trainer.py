@@ -18,6 +18,7 @@ from app.exercises.locks import Lock
 from app.imaging.field import TissueField
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
+from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
 from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
 from app.session.conditions import ARM, POINTERS, TAKEN_OVER, TRAINEE, hand_of
@@ -171,7 +172,7 @@ class Trainer:
             self._paced.stop()  # nobody waits any more for whoever holds time
         if self._ticker is not None:
             self._ticker.close()
-        self.abort("the trainer was closed")
+        self.abort(TRAINER_CLOSED)
         self._ticker = None
         self.disarm()
         self._sources.close()
@@ -285,7 +286,7 @@ class Trainer:
         with self._lock:
             return self._finish(AttemptEvent.END)
 
-    def abort(self, reason: str = "by the user") -> AttemptResult | None:
+    def abort(self, reason: str = BY_USER) -> AttemptResult | None:
         """Break a running attempt off, with the reason; nothing happens if none is running."""
         with self._lock:
             if not self._running.attempt.running:

@@ -3036,8 +3036,36 @@
             <translation type="unfinished">Schicht {ready} von {count}</translation>
         </message>
         <message>
+            <source>not a DICOM file</source>
+            <translation type="unfinished">keine DICOM-Datei</translation>
+        </message>
+        <message>
             <source>pydicom is loaded</source>
             <translation type="unfinished">pydicom ist geladen</translation>
+        </message>
+        <message>
+            <source>not a regular file</source>
+            <translation type="unfinished">keine gewöhnliche Datei</translation>
+        </message>
+        <message>
+            <source>cannot be read: {why}</source>
+            <translation type="unfinished">nicht lesbar: {why}</translation>
+        </message>
+        <message>
+            <source>damaged DICOM file: {error}</source>
+            <translation type="unfinished">beschädigte DICOM-Datei: {error}</translation>
+        </message>
+        <message>
+            <source>empty file</source>
+            <translation type="unfinished">leere Datei</translation>
+        </message>
+        <message>
+            <source>DICOM directory (DICOMDIR), not an image</source>
+            <translation type="unfinished">DICOM-Verzeichnis (DICOMDIR), kein Bild</translation>
+        </message>
+        <message>
+            <source>DICOM, but truncated or of no series (no SeriesInstanceUID)</source>
+            <translation type="unfinished">DICOM, aber abgeschnitten oder zu keiner Serie gehörig (keine SeriesInstanceUID)</translation>
         </message>
         <message>
             <source>{names} is missing, without which its pixels cannot be told</source>
@@ -5834,6 +5862,10 @@
         <message>
             <source>too slow by {lost:.0f} s: the simulated world was slowed with it</source>
             <translation type="unfinished">um {lost:.0f} s zu langsam: Die simulierte Welt wurde mitverlangsamt</translation>
+        </message>
+        <message>
+            <source>teaching estimate</source>
+            <translation type="unfinished">didaktischer Schätzwert</translation>
         </message>
         <message>
             <source>control scan {scan_number} at {time:.1f} s: {order_slices} slices of {order_slice_mm:g} mm about z {order_centre_mm:.1f} mm, {seen_words}, {dose:.1f} mGy·cm ({teaching_estimate})</source>
@@ -12563,8 +12595,20 @@ aus der Ebene {c:+.1f}° (Pfad {d:+.1f}°)</translation>
             <translation type="unfinished">rechte Kamera</translation>
         </message>
         <message>
+            <source>by the user</source>
+            <translation type="unfinished">vom Benutzer</translation>
+        </message>
+        <message>
             <source>another patient was opened</source>
             <translation type="unfinished">ein anderer Patient wurde geöffnet</translation>
+        </message>
+        <message>
+            <source>the trainer was closed</source>
+            <translation type="unfinished">der Trainer wurde geschlossen</translation>
+        </message>
+        <message>
+            <source>aborted: {reason}</source>
+            <translation type="unfinished">abgebrochen: {reason}</translation>
         </message>
         <message>
             <source>The hand holds the tool's handle: the tip goes the other way.</source>
@@ -13273,8 +13317,8 @@ Set table and slices, then press the pedal (S).</source>
 Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</translation>
         </message>
         <message>
-            <source>Control scan {n} at {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
-            <translation type="unfinished">Kontrollscan {n} bei {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
+            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
+            <translation type="unfinished">Kontrollscan {n} bei {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
             <source>Messages</source>

@@ -3036,8 +3036,36 @@
             <translation type="unfinished">coupe {ready} sur {count}</translation>
         </message>
         <message>
+            <source>not a DICOM file</source>
+            <translation type="unfinished">pas un fichier DICOM</translation>
+        </message>
+        <message>
             <source>pydicom is loaded</source>
             <translation type="unfinished">pydicom est chargé</translation>
+        </message>
+        <message>
+            <source>not a regular file</source>
+            <translation type="unfinished">pas un fichier ordinaire</translation>
+        </message>
+        <message>
+            <source>cannot be read: {why}</source>
+            <translation type="unfinished">illisible : {why}</translation>
+        </message>
+        <message>
+            <source>damaged DICOM file: {error}</source>
+            <translation type="unfinished">fichier DICOM endommagé : {error}</translation>
+        </message>
+        <message>
+            <source>empty file</source>
+            <translation type="unfinished">fichier vide</translation>
+        </message>
+        <message>
+            <source>DICOM directory (DICOMDIR), not an image</source>
+            <translation type="unfinished">répertoire DICOM (DICOMDIR), pas une image</translation>
+        </message>
+        <message>
+            <source>DICOM, but truncated or of no series (no SeriesInstanceUID)</source>
+            <translation type="unfinished">DICOM, mais tronqué ou sans série (pas de SeriesInstanceUID)</translation>
         </message>
         <message>
             <source>{names} is missing, without which its pixels cannot be told</source>
@@ -5834,6 +5862,10 @@
         <message>
             <source>too slow by {lost:.0f} s: the simulated world was slowed with it</source>
             <translation type="unfinished">trop lent de {lost:.0f} s : le monde simulé a été ralenti d’autant</translation>
+        </message>
+        <message>
+            <source>teaching estimate</source>
+            <translation type="unfinished">estimation pédagogique</translation>
         </message>
         <message>
             <source>control scan {scan_number} at {time:.1f} s: {order_slices} slices of {order_slice_mm:g} mm about z {order_centre_mm:.1f} mm, {seen_words}, {dose:.1f} mGy·cm ({teaching_estimate})</source>
@@ -12563,8 +12595,20 @@ hors du plan {c:+.1f}° (trajectoire {d:+.1f}°)</translation>
             <translation type="unfinished">caméra droite</translation>
         </message>
         <message>
+            <source>by the user</source>
+            <translation type="unfinished">par l’utilisateur</translation>
+        </message>
+        <message>
             <source>another patient was opened</source>
             <translation type="unfinished">un autre patient a été ouvert</translation>
+        </message>
+        <message>
+            <source>the trainer was closed</source>
+            <translation type="unfinished">l’entraîneur a été fermé</translation>
+        </message>
+        <message>
+            <source>aborted: {reason}</source>
+            <translation type="unfinished">interrompu : {reason}</translation>
         </message>
         <message>
             <source>The hand holds the tool's handle: the tip goes the other way.</source>
@@ -13273,8 +13317,8 @@ Set table and slices, then press the pedal (S).</source>
 Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
-            <source>Control scan {n} at {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
-            <translation type="unfinished">Scan de contrôle {n} à {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
+            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
+            <translation type="unfinished">Scan de contrôle {n} à {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
             <source>Messages</source>

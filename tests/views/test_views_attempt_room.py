@@ -348,3 +348,17 @@ def test_a_pane_that_had_the_whole_room_has_it_again_after_the_attempt(window, p
     assert workspace.grid.maximised is None
     workspace.room.end()
     assert workspace.grid.maximised is pane
+
+
+def test_the_rail_of_an_attempt_begins_at_its_top(window, settle):
+    window.show_workspace()
+    window.show()
+    window.resize(1024, 500)
+    room, bar = window.workspace.room, window.workspace.rail._area.verticalScrollBar()
+    room.begin()
+    assert settle(lambda: bar.maximum() > 0)
+    bar.setValue(bar.maximum())
+    room.end()
+    room.begin()
+    assert settle(lambda: bar.maximum() > 0)
+    assert bar.value() == 0

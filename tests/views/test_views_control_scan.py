@@ -20,14 +20,17 @@ from app.imaging.series import Recipe
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.edit import brushed
 from app.planning.patient import Patient
+from app.session.attempt_clock import AttemptClock
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import CtFacts
 from app.session.machine import State
 from app.session.shown_views import Shown, without_needle
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
+from app.views.exercise.readouts import clock_text
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.scan_view import ScanView
+from app.views.exercise.status import MessageList
 from app.views.robot.feature import RobotFeature
 from app.views.structures.feature import StructuresFeature
 
@@ -390,3 +393,65 @@ def test_a_scan_of_another_ct_is_not_made_of_this_one(guided, settle) -> None:
     window.feature(DebriefFeature).page.scans.cellActivated.emit(0, 0)
     assert "CT-OTHER" in str(failures)
     assert window.feature(DebriefFeature).scan_pictures.dialog is None
+
+
+OUT_S, PAUSE_S = 12.0, 5.0
+"""The needle is brought out before the attempt, and the attempt waits once, so long [s]."""
+
+
+def state_events():
+    """What a trainer says of a needle that is brought out first, and of a pause."""
+    states = (
+        (1000.0, "withdrawing"), (1000.0 + OUT_S, "aligning"), (1050.0, "inserting"),
+        (1060.0, "paused"), (1060.0 + PAUSE_S, "inserting"),
+    )  # fmt: skip
+    return [Event(time, "state", state, {"state": state}) for time, state in states]
+
+
+def test_a_scan_is_told_by_the_clock_on_the_rail(guided, settle) -> None:
+    window, trainer = guided
+    trainer.begin()
+    source = window.conductor.scans
+    source._begin()
+    for event in (*state_events(), scan_event(2, time=1105.0)):
+        source._take(event)
+    view = window.workspace.scan_view
+    assert settle(lambda: view.scan is not None)
+    rail = clock_text(1105.0 - 1000.0 - OUT_S - PAUSE_S)
+    assert rail == "1:28"
+    assert f"Control scan 2 at {rail} " in view._caption.text()
+
+
+def test_messages_are_told_by_the_clock_on_the_rail(application) -> None:
+    messages = MessageList()
+    messages.start_clock()
+    for event in (*state_events(), Event(1105.0, "scan", "control scan 2")):
+        messages.add_event(event)
+    lines = [messages.item(row).text() for row in range(messages.count())]
+    assert "0:" not in lines[0]  # before the clock runs
+    assert "0:00" in lines[1]
+    assert "1:28" in lines[-1]
+
+
+def test_the_debrief_tells_every_time_by_the_clock_of_the_attempt(window) -> None:
+    from views_exercise_attempts import review
+
+    page = window.feature(DebriefFeature).page
+    scan = ControlScan.of(scan_event(2, time=1060.0 + PAUSE_S + 3.0))
+    clock = AttemptClock.of(state_events())
+    shown = review(control_scans=(scan,), origin=1000.0, clock=clock)
+    page.show_review(shown)
+    assert page.scans.item(0, 1).text() == "0:51"
+    assert page.curves.read_out(OUT_S + 2.0).startswith("2.0 s")
+    page.bar.begin(shown.shown_time)
+    page.bar.show_time(OUT_S + 2.0)
+    assert page.bar.clock.text().startswith("2.0 / ")
+    for _ in range(len(page.curves._curves) + 1):
+        page.curves._draw_next()
+    axis = page.curves._plots[-1].getAxis("bottom")
+    levels = axis.tickValues(0.0, 64.0, 600.0)
+    told = [float(text) for step, at in levels for text in axis.tickStrings(at, 1.0, step)]
+    assert told
+    assert all(number == pytest.approx(round(number)) for number in told)
+    assert min(told) == 0.0
+    assert max(told) <= 64.0 - OUT_S - (64.0 - 60.0)  # the clock stands in the pause

@@ -105,6 +105,23 @@ def test_another_language_knows_what_was_briefed_and_whether_the_plan_was_attemp
     assert new.editor.attempted is attempted
 
 
+def test_the_words_of_the_debrief_have_their_share_in_another_language(rebuilding, settle):
+    debrief = rebuilding.window.feature(DebriefFeature)
+    debrief._controller._read(review)
+    assert settle(lambda: rebuilding.window.pages.currentWidget() is debrief.page)
+    rebuilding.change("de")
+    new = rebuilding.window
+    page = new.feature(DebriefFeature).page
+    assert settle(lambda: page.review is not None)
+    new.resize(1600, 900)
+    assert settle(lambda: page.width() >= 1500)
+    assert page._splitter.sizes()[0] >= 430
+    page._splitter.moveSplitter(600, 1)  # whoever drags it keeps it
+    new.resize(1700, 900)
+    assert settle(lambda: page.width() >= 1600)
+    assert page._splitter.sizes()[0] == pytest.approx(600, abs=20)
+
+
 def test_another_language_shows_the_debrief_that_was_shown(rebuilding, settle):
     debrief = rebuilding.window.feature(DebriefFeature)
     shown = review()

@@ -77,7 +77,9 @@ def test_what_is_met_again_at_one_place_is_one_mark_and_skin_and_the_target_are_
 
 def attempted_review(what=MET):
     return SimpleNamespace(
-        met=what, origin=50.0, score=judge((), ScoreRules(forbidden=("bone",)), "", what)
+        met=what,
+        clock_at=lambda moment: moment - 50.0,
+        score=judge((), ScoreRules(forbidden=("bone",)), "", what),
     )
 
 

@@ -69,6 +69,21 @@ def test_a_message_never_covers_the_next_step_and_no_line_of_it_is_cut(window, a
     assert notices.y() == 0
 
 
+def test_a_message_makes_room_for_menus_that_come_while_it_is_shown(window, application):
+    menus = window.menuBar().actions()
+    for action in menus[2:]:
+        window.menuBar().removeAction(action)
+    window.bar.show_error("An attempt is running: end it before the role is changed")
+    application.processEvents()
+    before = window.notices.x()
+    window.menuBar().addActions(menus[2:])
+    application.processEvents()
+    application.processEvents()
+    there = [window.menuBar().actionGeometry(action) for action in menus]
+    assert max(one.right() for one in there) > before
+    assert not any(window.notices.geometry().intersects(one) for one in there)
+
+
 def test_nothing_is_left_when_all_is_said(window, application):
     window.bar.show_note("Saved plan.mrk.json")
     window.bar.hide()

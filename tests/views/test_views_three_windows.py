@@ -22,6 +22,7 @@ from window_rig import plan
 
 from app.session.people import People
 from app.session.roster import RosterLine
+from app.views.accuracy.feature import AccuracyFeature
 from app.views.checks.feature import ChecksFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
@@ -414,6 +415,29 @@ def test_a_dialog_of_the_role_before_closes_with_it_and_a_page_of_help_stays(win
     window.roles.choose(Role.TECHNICIAN)
     checks.open_daily()
     assert checks.daily.isVisible()
+
+
+def test_a_page_of_the_role_before_is_left_with_it(window):
+    window.roles.choose(Role.TECHNICIAN)
+    accuracy = window.feature(AccuracyFeature)
+    accuracy.open_page()
+    assert window.pages.currentWidget() is accuracy.page
+    window.roles.choose(Role.STUDENT)
+    assert window.pages.currentWidget() is not accuracy.page
+    accuracy.open_page()
+    assert window.pages.currentWidget() is not accuracy.page
+
+
+def test_a_message_that_an_attempt_runs_goes_with_the_attempt(window, monkeypatch):
+    window.roles.choose(Role.TECHNICIAN)
+    controller = window.conductor.controller
+    monkeypatch.setattr(type(controller), "is_running", True)
+    window.roles.choose(Role.STUDENT)
+    assert "end it before the role is changed" in window.message_bar.text
+    assert not window.message_bar.isHidden()
+    monkeypatch.setattr(type(controller), "is_running", False)
+    window.runs.gone.emit()
+    assert window.message_bar.isHidden()
 
 
 def test_two_windows_that_insist_on_their_own_roles_end(application):

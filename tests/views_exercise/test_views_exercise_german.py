@@ -3,6 +3,7 @@
 from dataclasses import replace
 from datetime import date
 from types import SimpleNamespace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -10,20 +11,29 @@ from PySide6.QtCore import QCoreApplication, QTranslator
 from PySide6.QtGui import QFont, QFontMetrics
 from views_exercise_attempts import review, score
 
+from app.core.events import Event
 from app.core.messages import sentence
+from app.core.paths import resources
+from app.imaging.header_reading import file_headers
 from app.scoring.conditions import Assistance
 from app.scoring.met import Met
 from app.scoring.result import judge
 from app.scoring.risks import RiskMark
 from app.scoring.rows import ScoreRules
+from app.session.abort_reasons import BY_USER, abort_words, known
+from app.session.control_scan import TEACHING_ESTIMATE
 from app.session.course import Course, CourseItem, CourseStanding, why_not
+from app.session.next_exercise import Proposal, ProposalReason
 from app.session.snapshot import NextStep, StepKind
+from app.session.timeline import marks
 from app.views.debrief.card import costs
+from app.views.debrief.page import facts
 from app.views.debrief.score_words import (
     assistance_words,
     dial_text,
     met_lines,
     number,
+    proposal_words,
     risk_line,
     row_texts,
     verdict,
@@ -31,10 +41,11 @@ from app.views.debrief.score_words import (
 )
 from app.views.debrief.sessions import exercise_text
 from app.views.exercise.assistance_dial import apart
+from app.views.exercise.status import MessageList
 from app.views.exercise.steps import amount, step_words
 from app.views.kit import text, theme
 from app.views.kit.coordinates import lps_words
-from app.views.kit.text import tr, translated
+from app.views.kit.text import kept_text, tr, translated
 from app.views.people.pages import standing_words
 from tools.translations import faults
 
@@ -123,6 +134,62 @@ def test_what_fails_an_attempt_is_said_in_the_language_of_the_window(german):
     failed = judge(score().rows, ScoreRules(forbidden=("bone",)), met=(rib,))
     assert verdict(review(score=failed))[2] == "Rib bei 12,0 mm berührt, 8,4 N Kraft"
     assert "rib bei 12,0 mm berührt, 8,4 N Kraft" in met_lines(review(score=failed, met=(rib,)))[0]
+
+
+@pytest.fixture
+def shipped(german, monkeypatch):
+    """The German that ships, in place of the few texts of these tests."""
+    tree = ElementTree.parse(resources() / "translations" / "acus_de.ts")
+    texts = {
+        message.findtext("source"): message.findtext("translation")
+        for message in tree.iter("message")
+        if message.findtext("translation")
+    }
+    monkeypatch.setattr(f"{__name__}.GERMAN", texts)
+    return texts
+
+
+def test_the_next_exercise_names_the_metric_in_the_language_of_the_window(shipped):
+    proposal = Proposal("a", "A", ProposalReason.AGAIN, "Angle error", 14.0)
+    assert " Winkelfehler " in proposal_words(proposal)
+    assert "Angle" not in proposal_words(proposal)
+
+
+def test_who_aborted_an_attempt_is_said_in_the_language_of_the_window(shipped):
+    reason = "by the user"  # as a record holds it
+    (mark,) = marks([Event(3.0, "abort", f"aborted: {reason}")], 0.0, ("abort",))
+    assert translated(mark.label) == "abgebrochen: vom Benutzer"
+    assert mark.sign == "! aborted: by the user"  # as a table of the command line says it
+    assert mark.sign_of(translated(mark.label)) == "! abgebrochen: vom Benutz…"
+    assert translated(known(reason)) == "vom Benutzer"
+    assert known("the hand let go") == "the hand let go"
+    void = sentence("the attempt was aborted: {trajectory_aborted}",
+                    trajectory_aborted=known(reason))  # fmt: skip
+    shown = verdict(review(score=judge(score().rows, ScoreRules(), void)))[2]
+    assert "vom Benutzer" in shown
+    assert "user" not in shown
+
+
+def test_a_message_of_the_attempt_is_said_in_the_language_of_the_window(shipped):
+    messages = MessageList()
+    messages.add_event(Event(3.0, "abort", abort_words(BY_USER)))
+    assert messages.item(0).text().endswith("abgebrochen: vom Benutzer")
+    messages.deleteLater()
+
+
+def test_nobody_s_attempt_is_named_in_the_language_of_the_window(shipped):
+    assert facts(review(student="anonymous")).startswith("anonym ")
+
+
+def test_a_dose_says_in_the_language_of_the_window_that_it_is_an_estimate(shipped):
+    assert tr(TEACHING_ESTIMATE) == "didaktischer Schätzwert"
+
+
+def test_why_a_file_is_left_out_is_said_in_the_language_of_the_window(shipped, tmp_path):
+    (tmp_path / "notes.txt").write_text("no picture " * 99)
+    left_out = file_headers(tmp_path / "notes.txt")
+    assert kept_text(left_out.reason) == "keine DICOM-Datei"
+    assert kept_text(str.__str__(left_out.reason)) == "keine DICOM-Datei"  # by way of a process
 
 
 def test_a_translation_with_other_names_is_not_shown_and_takes_nothing_down(german):

@@ -134,7 +134,7 @@ class AccuracyFeature(Feature):
             from app.views.accuracy.page import AccuracyPage
 
             page = self.page = AccuracyPage()
-            self._shell.add_page(page)
+            self._shell.add_page(page, self.roles)
             page.closed.connect(self.context.leave_page)
             page.wanted.connect(self.show_study)
             page.measure_wanted.connect(self.measure)

@@ -21,7 +21,7 @@ from app.views.exercise.felt import origin_word
 from app.views.exercise.stages import phase_word
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, number, tr
+from app.views.kit.text import literal, number, tr, translated
 from app.views.kit.themes import DARK
 
 SHORTEST_S: Final = 0.05
@@ -237,8 +237,26 @@ def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
 class LocalAxis(pg.AxisItem):
     """An axis whose numbers have the decimal sign of the user's language."""
 
+    review: Review | None = None
+    """Whose clock its numbers are told by; None for an axis of no times."""
+
+    def tickValues(
+        self, minVal: float, maxVal: float, size: float
+    ) -> list[tuple[float, list[float]]]:
+        """Return the places of its ticks: round numbers of the student's clock."""
+        review = self.review
+        if review is None:
+            return list(super().tickValues(minVal, maxVal, size))
+        low, high = review.shown_time(minVal), review.shown_time(maxVal)
+        if not high > low:
+            return []
+        levels = super().tickValues(low, high, size * (high - low) / (maxVal - minVal))
+        return [(step, [review.curve_time(value) for value in values]) for step, values in levels]
+
     def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:
         """Return what stands at its ticks."""
+        if self.review is not None:
+            values = [self.review.shown_time(value) for value in values]
         sign = number(0.5, ".1f").strip("05")
         return [text.replace(".", sign) for text in super().tickStrings(values, scale, spacing)]
 
@@ -273,15 +291,14 @@ def _mark_text(mark: TimeMark, share: float) -> pg.TextItem:
 
     Numbers of scans stand on the uppermost line, words of other events above the states' names.
     """
+    sign = mark.sign_of(translated(mark.label))
     across = 0.0 if share < 1.0 / 3.0 else 0.5 if share < 2.0 / 3.0 else 1.0
     if mark.kind == "scan":
-        return pg.TextItem(
-            mark.sign, color=theme.IMAGE_TEXT, anchor=(min(0.9, max(0.1, across)), 0)
-        )
+        return pg.TextItem(sign, color=theme.IMAGE_TEXT, anchor=(min(0.9, max(0.1, across)), 0))
     fill = QColor(theme.IMAGE_GROUND)
-    text = pg.TextItem(mark.sign, color=theme.IMAGE_TEXT, anchor=(across, 2.1), fill=fill)
+    text = pg.TextItem(sign, color=theme.IMAGE_TEXT, anchor=(across, 2.1), fill=fill)
     text.setZValue(5)
-    text.setToolTip(literal(mark.label))
+    text.setToolTip(literal(translated(mark.label)))
     return text
 
 
@@ -384,6 +401,7 @@ class CurvesView(QWidget):
         if row == len(self._plots):
             self._plots.append(self._new_plot(row, curve))
         plot = self._plots[row]
+        plot.getAxis("bottom").review = review
         shade(plot, review, curve, names=row == 0)
         draw(plot, review, curve, names=row == 0)
         self._cursors.append(cursor_of(plot))
@@ -465,7 +483,8 @@ class CurvesView(QWidget):
             return ""
         i = int(np.argmin(np.abs(review.curves.time - time)))
         digits = 1 if time_end(review.curves.time) > SHORT_S else 3
-        parts = [f"{number(review.curves.time[i], f'.{digits}f')} s", _state_at(review.spans, time)]
+        shown = review.shown_time(float(review.curves.time[i]))
+        parts = [f"{number(shown, f'.{digits}f')} s", _state_at(review.spans, time)]
         for curve in self._curves:
             value = curve.values[i]
             text = f"{number(value, '.1f')} {curve.unit}" if np.isfinite(value) else "–"

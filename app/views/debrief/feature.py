@@ -621,10 +621,10 @@ class ScanPictures(QObject):
         if review is None:
             return
         self.dialog = dialog = QDialog(self._page)
-        dialog.setWindowTitle(caption(scan, review.origin))
+        dialog.setWindowTitle(caption(scan, review.clock_at(scan.time)))
         size_dialog(dialog, 900, 700)
         view = ScanView(self._conductor.planning, dialog)
-        view.show_scan(picture, scan, review.origin)
+        view.show_scan(picture, scan, review.clock_at(scan.time))
         view.viewing.set_draft(DraftPlan.of(review.placed.plan))
         needle = scan.needle
         view.viewing.set_needle(

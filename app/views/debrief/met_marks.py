@@ -95,7 +95,7 @@ def places_of(review: Review) -> tuple[MetPlace, ...]:
             groups.append([met])
         else:
             group.append(met)
-    places = [_place(group, forbidden, review.origin) for group in groups]
+    places = [_place(group, forbidden, review.clock_at) for group in groups]
     counts = dict.fromkeys(MARKS, 0)
     shown = []
     for place in sorted(places, key=lambda one: not one.fails):
@@ -109,7 +109,9 @@ def _apart(group: Sequence[Met], met: Met) -> float:
     return float(np.linalg.norm(np.subtract(group[0].points[0], met.points[0])))
 
 
-def _place(group: Sequence[Met], forbidden: Collection[str], origin: float) -> MetPlace:
+def _place(
+    group: Sequence[Met], forbidden: Collection[str], clock: Callable[[float], float]
+) -> MetPlace:
     longest = max(group, key=lambda met: met.length_mm)
     fails = any(met.is_forbidden(forbidden) for met in group)
     forces = [met.force_n for met in group if met.force_n is not None]
@@ -118,7 +120,7 @@ def _place(group: Sequence[Met], forbidden: Collection[str], origin: float) -> M
     lines = (
         f"{name} ({word})" if name != word else name,
         tr("✖ This fails the attempt.") if fails else "",
-        tr("{met}, at {when}", met=group[0].sentence, when=clock_text(group[0].time - origin)),
+        tr("{met}, at {when}", met=group[0].sentence, when=clock_text(clock(group[0].time))),
         tr_n("met {n} time here", "met {n} times here", len(group)) if len(group) > 1 else "",
         tr("longest way in it: {mm:.1f} mm", mm=longest.length_mm),
         tr("largest force along the needle: {force:.1f} N", force=max(forces))

@@ -114,7 +114,7 @@ class ScanList(QTableWidget):
         self.setRowCount(len(self._scans))
         self.setVisible(bool(self._scans))
         for row, scan in enumerate(self._scans):
-            for column, text in enumerate(cells(scan, review.origin)):
+            for column, text in enumerate(cells(scan, review.clock_at(scan.time))):
                 item = QTableWidgetItem(text)
                 if column == _COLUMNS - 1:
                     item.setTextAlignment(
@@ -124,8 +124,8 @@ class ScanList(QTableWidget):
                 self.setItem(row, column, item)
 
 
-def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
-    """Words of one row."""
+def cells(scan: ControlScan, shown: float) -> tuple[str, ...]:
+    """Words of one row; `shown` on the student's clock as it was taken [s]."""
     low, high = scan.order.range_mm
     slices = tr(
         "{n} × {mm:g} mm, {low} to {high}",
@@ -139,7 +139,7 @@ def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
         Seen.SHAFT: tr("▲ shaft only"),
         Seen.NOTHING: tr("✖ no needle"),
     }
-    time = clock_text(scan.time - origin)
+    time = clock_text(shown)
     return str(scan.number), time, slices, shows[scan.seen], number(scan.dose, ".1f")
 
 
@@ -275,6 +275,7 @@ class DebriefPage(QWidget):
         self._proposal: Proposal | None = None
         self._ghost: Ghost | None = None
         self._alignment = Alignment.TIME
+        self._dragged = False
         self._title, self._facts, self.conditions = (
             PlainLabel(self),
             PlainLabel(self),
@@ -446,7 +447,7 @@ class DebriefPage(QWidget):
             self.replayer.begin(0.0, 0.0)
         else:
             self.replayer.begin(motion.end, float(motion.time[motion.last]))
-        self.bar.begin()
+        self.bar.begin(review.shown_time)
         self.bar.setVisible(self.replayer.end > 0.0)
 
     def _show_time(self, time: float) -> None:
@@ -576,6 +577,7 @@ class DebriefPage(QWidget):
         splitter.addWidget(scrolled)
         splitter.addWidget(right)
         splitter.setStretchFactor(1, 1)
+        splitter.splitterMoved.connect(self._note_drag)
         splitter.setSizes([_LEFT, 900])
         self._inner.setSizes([_VIEWS, 400])
         return splitter
@@ -673,6 +675,12 @@ class DebriefPage(QWidget):
         super().hideEvent(event)
         self.replayer.pause()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the words their share, until somebody has dragged the border."""
+        super().resizeEvent(event)
+        if not self._dragged:
+            self._share_width()
+
     def suit_room(self) -> None:
         """Write anew who it was, or hide it; take the present colours and size of the text."""
         self._share_width()
@@ -681,6 +689,9 @@ class DebriefPage(QWidget):
             self._facts.setText(facts(self._review))
             self._show_words(self._review)
             self.table.show_score(self._review.score)
+
+    def _note_drag(self) -> None:
+        self._dragged = True
 
     def _share_width(self) -> None:
         left = theme.px(_LEFT)

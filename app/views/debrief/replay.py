@@ -198,6 +198,7 @@ class ReplayBar(QWidget):
     def __init__(self, replayer: Replayer, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._replayer = replayer
+        self._shown: Callable[[float], float] = float
         self.play, self.slider, self.clock = QPushButton(self), ScrubBar(self), PlainLabel(self)
         self.speed, self.along = QComboBox(self), QComboBox(self)
         self.ghost, self.by = QComboBox(self), QComboBox(self)
@@ -206,8 +207,13 @@ class ReplayBar(QWidget):
         self._connect()
         self._show_state()
 
-    def begin(self) -> None:
-        """Take the attempt that the clock has now."""
+    def begin(self, shown: Callable[[float], float] = float) -> None:
+        """Take the attempt that the clock has now.
+
+        Args:
+            shown: turns a time of the replay into what the student's clock showed [s].
+        """
+        self._shown = shown
         self.setEnabled(self._replayer.end > 0.0)
         self.slider.blockSignals(True)
         self.slider.setRange(0, max(1, round(1e3 * self._replayer.end)))
@@ -219,7 +225,8 @@ class ReplayBar(QWidget):
         self.slider.blockSignals(True)
         self.slider.setValue(round(1e3 * time))
         self.slider.blockSignals(False)
-        self.clock.setText(f"{number(time, '.1f')} / {number(self._replayer.end, '.1f')} s")
+        now, end = self._shown(time), self._shown(self._replayer.end)
+        self.clock.setText(f"{number(now, '.1f')} / {number(end, '.1f')} s")
 
     def set_ghosts(self, choices: list[tuple[object, str]], chosen: object = None) -> None:
         """Offer what may stand beside the needle: keys with their words."""

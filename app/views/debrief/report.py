@@ -98,17 +98,18 @@ def paint_plot(
     painter: QPainter,
     box: QRectF,
     curve: Curve,
-    time: FloatArray,
-    spans: Sequence[Span],
-    marks: Sequence[TimeMark],
+    review: Review,
     labelled: bool,
 ) -> None:
     """Draw one curve into `box` [pt]; `labelled` adds the time axis and the names of the states."""
+    time, spans, marks = review.curves.time, review.spans, review.marks
     area = box.adjusted(_LEFT, _TITLE, 0.0, -24.0 if labelled else -6.0)
     low, high = value_range(curve)
     end = time_end(time)
     _paint_spans(painter, area, spans, end, labelled)
-    _paint_grid(painter, area, (low, high), end, labelled)
+    _paint_grid(painter, area, (low, high))
+    if labelled:
+        _paint_times(painter, area, review, end)
     painter.setFont(font(8.5, bold=True))
     painter.setPen(QColor(INK))
     painter.drawText(QPointF(box.left(), box.top() + 9.0), curve.title)
@@ -173,9 +174,7 @@ def _paint_spans(
             painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, name)
 
 
-def _paint_grid(
-    painter: QPainter, area: QRectF, span: tuple[float, float], end: float, labelled: bool
-) -> None:
+def _paint_grid(painter: QPainter, area: QRectF, span: tuple[float, float]) -> None:
     low, high = span
     painter.setFont(font(7.5))
     for value in ticks(low, high):
@@ -186,12 +185,19 @@ def _paint_grid(
         label = QRectF(area.left() - _LEFT, y - 5.0, _LEFT - 4.0, 10.0)
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         painter.drawText(label, right, number(value, "g"))
-    for value in ticks(0.0, end, 8) if labelled else ():
-        label = QRectF(_x(area, value, end) - 20.0, area.bottom() + 1.0, 40.0, 10.0)
-        painter.drawText(label, Qt.AlignmentFlag.AlignHCenter, number(value, "g") + " s")
     painter.setPen(QPen(QColor(DIM), 0.6))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.drawRect(area)
+
+
+def _paint_times(painter: QPainter, area: QRectF, review: Review, end: float) -> None:
+    """Write round numbers of the student's clock below the plot."""
+    painter.setPen(QColor(DIM))
+    painter.setFont(font(7.5))
+    for shown in ticks(0.0, review.shown_time(end), 8):
+        x = _x(area, review.curve_time(shown), end)
+        label = QRectF(x - 20.0, area.bottom() + 1.0, 40.0, 10.0)
+        painter.drawText(label, Qt.AlignmentFlag.AlignHCenter, number(shown, "g") + " s")
 
 
 def _paint_marks(painter: QPainter, area: QRectF, marks: Sequence[TimeMark], end: float) -> None:
@@ -202,9 +208,10 @@ def _paint_marks(painter: QPainter, area: QRectF, marks: Sequence[TimeMark], end
         pen.setDashPattern([4.0, 4.0])
         painter.setPen(pen)
         painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))
-        width = painter.fontMetrics().horizontalAdvance(mark.sign)
+        sign = mark.sign_of(translated(mark.label))
+        width = painter.fontMetrics().horizontalAdvance(sign)
         left = min(x - 4.0, area.right() - width)  # nothing of it is cut at the edge
-        painter.drawText(QPointF(left, area.top() - 1.5), mark.sign)
+        painter.drawText(QPointF(left, area.top() - 1.5), sign)
 
 
 def _x(area: QRectF, time: float, end: float) -> float:
@@ -451,7 +458,7 @@ def _second_page(painter: QPainter, review: Review) -> None:
         last = i == len(curves) - 1
         height = 118.0 if last else 100.0
         box = QRectF(MARGIN, top, width, height)
-        paint_plot(painter, box, curve, review.curves.time, review.spans, review.marks, last)
+        paint_plot(painter, box, curve, review, last)
         top += height + 6.0
     caption = tr("Track of the tip, seen along the planned path")
     _text(painter, MARGIN, top + 16.0, caption, font(9.5, bold=True))

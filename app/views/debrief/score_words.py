@@ -24,9 +24,9 @@ from app.views.kit.text import begun, declared, listing, tr, tr_n, translated
 from app.views.kit.text import number as local
 
 
-def risk_line(mark: RiskMark, origin: float) -> str:
-    """One structure in a line: sign, distance, limit, when; the time counted from `origin` [s]."""
-    when, depth = clock_text(mark.time - origin), max(0.0, -mark.closest_mm)
+def risk_line(mark: RiskMark, shown: float) -> str:
+    """One structure in a line: sign, distance, limit, when; `shown` on the student's clock [s]."""
+    when, depth = clock_text(shown), max(0.0, -mark.closest_mm)
     if mark.closest_mm <= 0.0:
         return tr(
             "✖ {name}: needle inside, {depth:.1f} mm deep, at {when} (limit {limit:g} mm)",
@@ -45,7 +45,7 @@ def risk_line(mark: RiskMark, origin: float) -> str:
 def risk_lines(review: Review) -> tuple[str, ...]:
     """All structures, the worst first."""
     ordered = sorted(review.risks, key=lambda mark: mark.closest_mm - mark.limit_mm)
-    return tuple(risk_line(mark, review.origin) for mark in ordered)
+    return tuple(risk_line(mark, review.clock_at(mark.time)) for mark in ordered)
 
 
 def met_lines(review: Review) -> tuple[str, ...]:
@@ -58,7 +58,7 @@ def met_lines(review: Review) -> tuple[str, ...]:
         fails = met.is_forbidden(forbidden)
         if not fails and met.kind in _PLAIN and not met.name:
             continue
-        when = clock_text(met.time - review.origin)
+        when = clock_text(review.clock_at(met.time))
         line = tr("{met}, at {when}", met=met.sentence, when=when)
         lines.append((not fails, f"{'✖' if fails else '·'} {line}"))
     return tuple(line for _, line in sorted(lines, key=lambda one: one[0]))
@@ -365,7 +365,7 @@ def proposal_words(proposal: Proposal) -> str:
     cost = (
         tr(
             " {metric} cost most: {points}.",
-            metric=proposal.metric,
+            metric=declared(proposal.metric),
             points=points_words(proposal.points),
         )
         if proposal.metric
@@ -374,13 +374,13 @@ def proposal_words(proposal: Proposal) -> str:
     next_one = tr("Next: {title}.", title=declared(proposal.title))
     words = {
         ProposalReason.COURSE: next_one
-        + tr(" It follows in the course {course}.", course=proposal.course),
+        + tr(" It follows in the course {course}.", course=declared(proposal.course)),
         ProposalReason.LEVEL: next_one
         + tr(" This one is passed; it is of level {level}.", level=proposal.level),
         ProposalReason.WEAKNESS: next_one
         + tr(
             " This one is passed; {metric} cost most here ({points}), and counts there.",
-            metric=proposal.metric,
+            metric=declared(proposal.metric),
             points=points_words(proposal.points),
         ),
         ProposalReason.AGAIN: tr("The same again: it is not passed yet.") + cost,

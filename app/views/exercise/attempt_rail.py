@@ -244,6 +244,10 @@ class AttemptRail(QWidget):
         self.panel.clicked.connect(self.panel_wanted)
         self.hide()
 
+    def begin(self) -> None:
+        """Stand at the top again: what is to be done next is said there."""
+        self._area.verticalScrollBar().setValue(0)
+
     def take(self, tools: QWidget) -> None:
         """Let the attempt's own buttons stand here."""
         self._place.addWidget(tools)

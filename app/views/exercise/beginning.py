@@ -36,6 +36,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
 from app.views.kit.text import declared, tr
 from app.views.shell.feature import Context
+from app.views.shell.message_bar import ATTEMPT_RUNS
 
 TRAINEE_DONE: Final = 9.0
 """Phase of the scripted hand that has done its part (`simulation.trainee.ScriptPhase`)."""
@@ -200,8 +201,8 @@ class Beginning(QObject):
         """Say that an attempt is running, where one is; return whether one is."""
         if not self._conductor.controller.is_running:
             return False
-        self._shell.messages.show_error(
-            tr("An attempt is running: end it before another exercise is begun")
+        self._shell.messages.show_until(
+            ATTEMPT_RUNS, tr("An attempt is running: end it before another exercise is begun")
         )
         return True
 
@@ -302,7 +303,9 @@ class Beginning(QObject):
         if taken is None or self._conductor.patient is None:
             self._shell.messages.show_error(tr("Choose an exercise first: File ▸ Start page."))
         elif self._conductor.controller.is_running:
-            self._shell.messages.show_error(tr("An attempt is running: end it first."))
+            self._shell.messages.show_until(
+                ATTEMPT_RUNS, tr("An attempt is running: end it first.")
+            )
         elif not self._context.editors.plan.edit.draft.complete:
             self._shell.messages.show_error(
                 tr("Place entry and target first: the expert follows your plan.")

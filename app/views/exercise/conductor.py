@@ -11,7 +11,6 @@ from PySide6.QtWidgets import QWidget
 from app.core import state_vector
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
-from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
@@ -25,6 +24,7 @@ from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.patient import Patient
 from app.planning.placement import Placement
+from app.session.abort_reasons import OTHER_PATIENT
 from app.session.ct_facts import CtFacts
 from app.session.machine import RUNNING, State
 from app.session.pad.view import rings_of
@@ -277,7 +277,7 @@ class Conductor(QObject):
         self._demonstrates = self._lent = False
         self._leaving = True  # no run may be wanted for a plan that is about to go
         try:
-            self.runs.abort(sentence("another patient was opened"))
+            self.runs.abort(OTHER_PATIENT)
             self.patient = None
             self._editor.set_locked(False)
             self._editor.set_keeps_target(False)

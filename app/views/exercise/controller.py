@@ -485,7 +485,7 @@ class ExerciseController(QObject):
         self.rester.stir()
         self.beginning.emit()
         self._views.messages.clear()
-        self._views.messages.start_clock(run.trainer.snapshot().time)
+        self._views.messages.start_clock()
         try:
             by_hand = self._views.bullseye.source.name if run.interactive else ""
             hand = self._led_as or by_hand

@@ -23,6 +23,7 @@ from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import declared, listing, tr, translated
 from app.views.reading.lock_words import CAMERA_ROLES
 from app.views.shell.feature import Context, Feature
+from app.views.shell.message_bar import ATTEMPT_RUNS
 
 
 class ExerciseFeature(Feature):
@@ -166,8 +167,9 @@ class ExerciseFeature(Feature):
         patient = self._conductor.patient
         if patient is not None and self._conductor.fits(patient, exercise):
             if self._editor.locked:
-                self._shell.messages.show_error(
-                    tr("An attempt is running: end it before another exercise is chosen")
+                self._shell.messages.show_until(
+                    ATTEMPT_RUNS,
+                    tr("An attempt is running: end it before another exercise is chosen"),
                 )
                 self.show_taken()
                 return

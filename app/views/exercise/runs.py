@@ -8,10 +8,11 @@ from collections.abc import Callable
 from PySide6.QtCore import QObject, Signal
 
 from app.core.errors import AcusError
-from app.core.messages import joined, sentence
+from app.core.messages import joined
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
+from app.session.abort_reasons import WINDOW_CLOSED
 from app.views.exercise.run import ExerciseRun
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.text import tr
@@ -132,7 +133,7 @@ class Runs(QObject):
             self._task = None
         opened, self._open = self._open, None
         if opened is not None:
-            opened.run.trainer.abort(sentence("the window was closed"))  # what runs is saved
+            opened.run.trainer.abort(WINDOW_CLOSED)  # what runs is saved
             opened.close()
         self.closed()()
 

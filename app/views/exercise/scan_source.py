@@ -13,6 +13,7 @@ from app.core.progress import Progress
 from app.imaging.scan_order import ScanOrder
 from app.imaging.volume import Volume
 from app.planning.patient import Patient
+from app.session.attempt_clock import AttemptClock
 from app.session.control_scan import ControlScan
 from app.views.exercise.controller import ExerciseController
 from app.views.kit.background import run_in_background
@@ -131,7 +132,7 @@ class ScanSource(QObject):
         self.ranges = tuple(attach(pane) for pane in self._panes)
         self._busy, self._waiting = False, False
         self._newest: ControlScan | None = None
-        self._origin: float | None = None  # of the attempt: its first event
+        self._clock = AttemptClock()
         controller.event_seen.connect(self._take)
         controller.began.connect(self._begin)
         controller.attached.connect(self._attached)
@@ -165,13 +166,13 @@ class ScanSource(QObject):
 
     def _begin(self) -> None:
         self._waiting = False
-        self._newest, self._origin = None, None
+        self._newest, self._clock = None, AttemptClock()
         self._panel.begin()
         self._view.clear()
 
     def _take(self, event: Event) -> None:
         run = self._controller.run
-        self._origin = event.time if self._origin is None else self._origin
+        self._clock = self._clock.after(event)
         scan = ControlScan.of(event)
         if scan is None or run is None:
             return
@@ -200,7 +201,7 @@ class ScanSource(QObject):
     def _show(self, picture: Volume, scan: ControlScan) -> None:
         self._done()
         if scan is self._newest:
-            self._view.show_scan(picture, scan, self._origin or 0.0)
+            self._view.show_scan(picture, scan, self._clock.at(scan.time))
 
     def _fail(self, error: Exception) -> None:
         self._done()

@@ -25,6 +25,7 @@ from app.imaging.volume import Volume
 from app.imaging.window import to_grey
 from app.planning.plan import Plan
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
+from app.views.exercise.readouts import clock_text
 from app.views.exercise.scan_wall import ScanPicture, ScanWall
 from app.views.kit import theme
 from app.views.kit.coordinates import axis_words
@@ -260,23 +261,23 @@ class ScanView(QWidget):
         self._drop_thumbs()
         self._stack.setCurrentIndex(0)
 
-    def show_scan(self, picture: Volume, scan: ControlScan, origin: float) -> None:
+    def show_scan(self, picture: Volume, scan: ControlScan, shown: float) -> None:
         """Show a scan's slices, the middle one large.
 
         Args:
             picture: of `imaging.scanned`.
             scan: what was ordered.
-            origin: moment that its time is told from [s].
+            shown: on the student's clock as it was taken [s].
         """
         self.scan = scan
         self.viewing.set_volume(picture)
-        self._caption.setText(caption(scan, origin))
+        self._caption.setText(caption(scan, shown))
         self._make_thumbs(picture)
         self._follow_crosshair()
         self._go_to(picture.size[2] // 2)
         self.wall.set_window(self.viewing.window)
         self.wall.look_at(self._planning.draft)
-        self.wall.add(ScanPicture(picture, caption(scan, origin)))
+        self.wall.add(ScanPicture(picture, caption(scan, shown)))
         self.show_all()
         self.pane.canvas.fit()
         self.arrived.emit()
@@ -387,13 +388,13 @@ class ScanView(QWidget):
         self._stack.addWidget(self.wall)
 
 
-def caption(scan: ControlScan, origin: float) -> str:
+def caption(scan: ControlScan, shown: float) -> str:
     """Say which scan it is; what it shows of the needle is for the eyes."""
     order = scan.order
     return tr(
-        "Control scan {n} at {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})",
+        "Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})",
         n=scan.number,
-        time=scan.time - origin,
+        time=clock_text(shown),
         slices=order.slices,
         mm=order.slice_mm,
         dose=scan.dose,

@@ -29,11 +29,12 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.events import Event
+from app.session.attempt_clock import AttemptClock
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ElidedLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 
 LONGEST: Final = 200
@@ -67,21 +68,22 @@ class MessageList(QListWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._origin: float | None = None
+        self._clock = AttemptClock()
         self.setWordWrap(True)
         self.setAccessibleName(tr("Messages"))
         NAMES.changed.connect(self.suit_room)
 
-    def start_clock(self, origin: float) -> None:
-        """Count times from `origin` [s]; before that they are left out."""
-        self._origin = origin
+    def start_clock(self) -> None:
+        """Begin to count anew: until the attempt's own clock starts, times are left out."""
+        self._clock = AttemptClock()
 
     def add_event(self, event: Event) -> None:
         """Append an event; the list keeps its last `LONGEST` lines and stays at its end."""
         colour, symbol = _LOOKS.get(event.kind, (theme.TEXT_DIM, "•"))
-        known = self._origin is not None and event.time >= self._origin
-        when = clock_text(event.time - (self._origin or 0.0)) + "  " if known else ""
-        line = f"{symbol} {when}{event.message}"
+        self._clock = self._clock.after(event)
+        known = self._clock.began is not None and event.time >= self._clock.began
+        when = clock_text(self._clock.at(event.time)) + "  " if known else ""
+        line = f"{symbol} {when}{translated(event.message)}"
         item = QListWidgetItem(NAMES.without_names(line))
         item.setData(_LINE, line)
         item.setData(_COLOUR, colour)

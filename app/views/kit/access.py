@@ -7,6 +7,7 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal
 
 from app.session.access import Known, Visitor
+from app.session.header import ANONYMOUS
 from app.session.people import Person
 from app.session.roster import looks_like_a_key
 from app.views.kit.roles import Role
@@ -98,6 +99,8 @@ class Access(QObject):
         """Return what to show for whom a record names: the pseudonym, or the text as it is."""
         pseudonyms = self._visitor.known.pseudonyms
         found = pseudonyms.get(recorded)
+        if found is None and recorded == ANONYMOUS:
+            return tr("anonymous")
         if found is None and looks_like_a_key(recorded):
             return tr("(erased)") if pseudonyms else recorded
         return found or recorded

@@ -59,6 +59,15 @@ def translated(message: str | BaseException) -> str:
     return _TEXTS.translated(message)
 
 
+def kept_text(text: str) -> str:
+    """Return a message that a file or another process held as English text in the user's language.
+
+    That is possible for messages without values; every other one stays as it is.
+    """
+    shown = translated(text)
+    return declared(shown) if shown == text else shown
+
+
 def begun(message: str | BaseException) -> str:
     """Return a message of the lower rooms in the user's language, begun with a capital."""
     text = translated(message)

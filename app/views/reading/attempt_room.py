@@ -131,6 +131,7 @@ class AttemptRoom(QObject):
             own: name of the layout that the exercise itself chose; empty where it chose none.
             live: whether the needle is shown live; else control scans guide.
         """
+        self.rail.begin()
         if self.is_on:
             return
         page = self._page

@@ -31,7 +31,7 @@ from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, size_dialog
-from app.views.kit.text import literal, number, tr, tr_n
+from app.views.kit.text import kept_text, literal, number, tr, tr_n
 
 PICTURE_PX = 112
 _BUTTON_PX = 190
@@ -273,7 +273,7 @@ class SeriesBrowser(QDialog):
         files = self.listing.ignored
         lines = [
             f"{NAMES.shown(self.listing.shown(file.path))}: "
-            + NAMES.without_names(file.reason, files=True)
+            + NAMES.without_names(kept_text(file.reason), files=True)
             for file in files
         ]
         self.ignored.setPlainText("\n".join(lines))

@@ -15,6 +15,7 @@ from app.views.kit.text import tr
 from app.views.people.feature import PeopleFeature
 from app.views.plan.feature import PlanFeature
 from app.views.shell.collector import collect_for
+from app.views.shell.message_bar import ATTEMPT_RUNS
 from app.views.shell.window import MainWindow
 
 
@@ -77,8 +78,8 @@ class Rebuilding(QObject):
             choose(window.settings, code)
             return
         if window.editor.locked:
-            window.message_bar.show_error(
-                tr("An attempt is running: end it before another language is chosen")
+            window.message_bar.show_until(
+                ATTEMPT_RUNS, tr("An attempt is running: end it before another language is chosen")
             )
             return
         patient, exercise = window.conductor.patient, window.conductor.exercise

@@ -33,6 +33,14 @@ CLEAR_CHANGES = (
     QEvent.Type.Resize,
 )
 
+MENU_CHANGES = (
+    QEvent.Type.ActionAdded,
+    QEvent.Type.ActionChanged,
+    QEvent.Type.ActionRemoved,
+    QEvent.Type.Resize,
+    QEvent.Type.LayoutRequest,
+)
+
 NARROWEST_PX = 340
 """Where the menus leave less room the notices lie over them."""
 
@@ -59,6 +67,10 @@ class Notices(QWidget):
             column.addWidget(part)
             part.installEventFilter(self)
         window.installEventFilter(self)
+        self._settling = QTimer(self, interval=0, singleShot=True)
+        self._settling.timeout.connect(self.place)
+        self._menus = window.menuBar()
+        self._menus.installEventFilter(self)
         if clear is not None:
             clear.installEventFilter(self)
         self.place()
@@ -100,6 +112,10 @@ class Notices(QWidget):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Follow the window's size, and parts that come and go."""
         resized = watched is self._window and event.type() is QEvent.Type.Resize
+        if watched is self._menus:
+            if event.type() in MENU_CHANGES:
+                self._settling.start()  # the menu bar lays its menus out later
+            return False
         changed = event.type() in (QEvent.Type.ShowToParent, QEvent.Type.HideToParent)
         seen = watched is self._clear and event.type() in CLEAR_CHANGES
         if resized or seen or (changed and watched not in (self._window, self._clear)):
@@ -111,8 +127,9 @@ NOTE_MS = 6000
 """A note that something worked is shown this long."""
 
 REFUSAL, ROBOT, PAUSE, START = "refusal", "robot", "pause", "start"
+ATTEMPT_RUNS = "attempt_runs"
 """Topics: the user's last change was refused; no robot can be had; the attempt waits; none can be
-begun now."""
+begun now; something has to wait until the attempt that runs is over."""
 
 LONGEST = 260
 """Characters shown in the bar; the rest stands in the details."""

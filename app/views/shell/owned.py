@@ -62,9 +62,9 @@ class Owned:
         """Remember for whom the panel is that was added last."""
         self._panels.append(self._now)
 
-    def add_page(self, page: QWidget) -> None:
-        """Remember for whom a page is."""
-        self._page_roles[page] = self._now
+    def add_page(self, page: QWidget, roles: frozenset[Role] | None = None) -> None:
+        """Remember for whom a page is; `roles` where it is added later than its feature."""
+        self._page_roles[page] = self._now if roles is None else roles
 
     def keep(self, widget: QWidget) -> None:
         """Show a widget to the roles for whom things are made now, and to nobody else."""

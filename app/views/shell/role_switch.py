@@ -26,6 +26,7 @@ from app.views.kit.roles import (
     role_words,
 )
 from app.views.kit.text import keys_text, literal, tr
+from app.views.shell.message_bar import ATTEMPT_RUNS
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ROLE_KEY
 
@@ -92,8 +93,8 @@ class RoleSwitch(QObject):
         if role is self.role:
             return
         if self._controller.is_running:
-            self._shell.messages.show_error(
-                tr("An attempt is running: end it before the role is changed")
+            self._shell.messages.show_until(
+                ATTEMPT_RUNS, tr("An attempt is running: end it before the role is changed")
             )
             return
         self._asked = role

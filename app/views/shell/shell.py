@@ -144,10 +144,15 @@ class Shell:
         self.show_workspace()
         self._side.setCurrentWidget(panel)
 
-    def add_page(self, page: QWidget) -> None:
-        """Add a page that fills the window while it is shown."""
+    def add_page(self, page: QWidget, roles: frozenset[Role] | None = None) -> None:
+        """Add a page that fills the window while it is shown.
+
+        Args:
+            page: to add.
+            roles: who has it; a page that is made once it is wanted says so.
+        """
         self._pages.addWidget(page)
-        self.owned.add_page(page)
+        self.owned.add_page(page, roles)
 
     def show_page(self, page: QWidget) -> None:
         """Bring a page that was added to the front, where the role has it."""

@@ -21,6 +21,7 @@ from app.views.kit.parts import button, label
 from app.views.kit.text import tr
 from app.views.reading.workspace import WorkspacePage
 from app.views.shell.feature import Context
+from app.views.shell.message_bar import ATTEMPT_RUNS
 from app.views.shell.start_page import StartPage
 
 SEEN: Final = "tour/seen"
@@ -211,7 +212,9 @@ class Tour(QObject):
     def begin(self) -> None:
         """Begin at the first stop; refused while an attempt runs."""
         if self.context.conductor.controller.is_running:
-            self.context.shell.messages.show_error(tr("An attempt is running: end it first."))
+            self.context.shell.messages.show_until(
+                ATTEMPT_RUNS, tr("An attempt is running: end it first.")
+            )
             return
         self.decline()
         self._page, self._had_pad = self._current(), self._workspace.has_bullseye

@@ -49,7 +49,15 @@ from app.views.shell.feature import Context, Feature
 from app.views.shell.features import FEATURES
 from app.views.shell.foreign_features import made
 from app.views.shell.help import ProblemReport, about, page_of, show_help
-from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, START, MessageBar, Notices
+from app.views.shell.message_bar import (
+    ATTEMPT_RUNS,
+    PAUSE,
+    REFUSAL,
+    ROBOT,
+    START,
+    MessageBar,
+    Notices,
+)
 from app.views.shell.pages import Pages
 from app.views.shell.projector import Projector
 from app.views.shell.remembered import Remembered
@@ -104,6 +112,8 @@ def connect_messages(
     if reasons := plugin_folders.refused_folders():
         why = joined("; ", reasons)
         bar.show_until("folders", tr("A folder of plug-ins cannot be used: {why}", why=why))
+    for signal in (ended, runs.gone):
+        signal.connect(lambda *_: bar.forget(ATTEMPT_RUNS))
     for signal in (runs.ready, equipment.accepted):
         signal.connect(lambda *_: bar.forget(ROBOT))
     runs.starting.connect(lambda begun: bar.forget(ROBOT) if begun else None)
@@ -282,8 +292,8 @@ class MainWindow(QMainWindow):
         """Go to the start page; an attempt whose clock runs is not left behind it."""
         if self.conductor.controller.is_running_by_hand:
             self.show_workspace()
-            self.message_bar.show_error(
-                tr("An attempt is running: end it before you go to the start page")
+            self.message_bar.show_until(
+                ATTEMPT_RUNS, tr("An attempt is running: end it before you go to the start page")
             )
             return
         self.start_page.set_recents(self.open_ct.recents.paths())
