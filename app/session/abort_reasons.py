@@ -8,7 +8,14 @@ from typing import Final
 
 from app.core.messages import sentence
 
-__all__ = ["BY_USER", "OTHER_PATIENT", "TRAINER_CLOSED", "WINDOW_CLOSED", "abort_words", "known"]
+__all__ = [
+    "BY_USER",
+    "OTHER_PATIENT",
+    "TRAINER_CLOSED",
+    "WINDOW_CLOSED",
+    "abort_words",
+    "known_reason",
+]
 
 BY_USER: Final = sentence("by the user")
 OTHER_PATIENT: Final = sentence("another patient was opened")
@@ -19,7 +26,7 @@ _KNOWN: Final = {str(one): one for one in (BY_USER, OTHER_PATIENT, WINDOW_CLOSED
 _BEFORE: Final = "aborted: "
 
 
-def known(reason: str) -> str:
+def known_reason(reason: str) -> str:
     """Return a reason of a record as the sentence that it was, where it is one of this program."""
     return _KNOWN.get(reason, reason)
 
@@ -30,4 +37,4 @@ def abort_words(reason: str) -> str:
     Args:
         reason: alone, or as an event of a record says it, after `aborted: `.
     """
-    return sentence("aborted: {reason}", reason=known(reason.removeprefix(_BEFORE)))
+    return sentence("aborted: {reason}", reason=known_reason(reason.removeprefix(_BEFORE)))

@@ -20,7 +20,7 @@ from app.scoring.scans import ScanMark
 from app.scoring.score import score
 from app.scoring.touches import Touches
 from app.scoring.trajectory import Trajectory
-from app.session.abort_reasons import known
+from app.session.abort_reasons import known_reason
 from app.session.conditions import AGREEMENT
 from app.session.errors import SessionError
 from app.session.machine import State
@@ -129,7 +129,7 @@ def trajectory(
         hub=hub if np.isfinite(hub).all() else None,
         guide=guide if np.isfinite(guide).all() else None,
         target_shift=target - placed.p_target if np.isfinite(target).all() else None,
-        aborted=known(aborted),
+        aborted=known_reason(aborted),
         scans=scans,
         risks=risks,
         excused=excused,

@@ -14,7 +14,7 @@ from app.core.json_values import finite
 from app.core.messages import sentence
 from app.scoring.conditions import Conditions
 from app.scoring.result import Score
-from app.session.abort_reasons import known
+from app.session.abort_reasons import known_reason
 from app.session.machine import FINAL, State
 from app.session.recording import Recording
 from app.session.schemas import SCORE, conforms
@@ -142,7 +142,7 @@ def derive(recording: Recording, outcome: Verification | None = None) -> Summary
         exercise_id=exercise.get("id", ""),
         exercise_title=exercise.get("title", ""),
         state=_state(recording),
-        reason=known(result.get("reason", "")),
+        reason=known_reason(result.get("reason", "")),
         duration=_number(result.get("duration_s"), measured),
         scans=sum(event.kind == "scan" for event in recording.events),
         score=None if standing is None else document_of(standing),

@@ -20,7 +20,7 @@ from app.scoring.met import Met
 from app.scoring.result import judge
 from app.scoring.risks import RiskMark
 from app.scoring.rows import ScoreRules
-from app.session.abort_reasons import BY_USER, abort_words, known
+from app.session.abort_reasons import BY_USER, abort_words, known_reason
 from app.session.control_scan import TEACHING_ESTIMATE
 from app.session.course import Course, CourseItem, CourseStanding, why_not
 from app.session.next_exercise import Proposal, ProposalReason
@@ -161,10 +161,10 @@ def test_who_aborted_an_attempt_is_said_in_the_language_of_the_window(shipped):
     assert translated(mark.label) == "abgebrochen: vom Benutzer"
     assert mark.sign == "! aborted: by the user"  # as a table of the command line says it
     assert mark.sign_of(translated(mark.label)) == "! abgebrochen: vom Benutz…"
-    assert translated(known(reason)) == "vom Benutzer"
-    assert known("the hand let go") == "the hand let go"
+    assert translated(known_reason(reason)) == "vom Benutzer"
+    assert known_reason("the hand let go") == "the hand let go"
     void = sentence("the attempt was aborted: {trajectory_aborted}",
-                    trajectory_aborted=known(reason))  # fmt: skip
+                    trajectory_aborted=known_reason(reason))  # fmt: skip
     shown = verdict(review(score=judge(score().rows, ScoreRules(), void)))[2]
     assert "vom Benutzer" in shown
     assert "user" not in shown

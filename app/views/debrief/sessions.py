@@ -33,7 +33,7 @@ from PySide6.QtWidgets import (
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
-from app.session.abort_reasons import known
+from app.session.abort_reasons import known_reason
 from app.session.archive import UNDO_DAYS, deleted_at
 from app.session.course import held_back
 from app.session.header import TRASH
@@ -219,7 +219,7 @@ class SessionsModel(QAbstractTableModel):
                 summary.id,
                 whose_words(known),
                 *remarks,
-                translated(known(summary.reason)),
+                translated(known_reason(summary.reason)),
                 *summary.problems,
                 *under,
             )
@@ -259,7 +259,7 @@ def cell_text(summary: Summary, column: int) -> str:
         return "" if summary.state == BROKEN else clock_text(summary.duration)
     if column == SIGNED:
         return signature_word(summary.signature)
-    remark = "; ".join(filter(None, (translated(known(summary.reason)), *summary.problems)))
+    remark = "; ".join(filter(None, (translated(known_reason(summary.reason)), *summary.problems)))
     return NAMES.without_names(remark, files=True)
 
 
