@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
 
-app = Commands(help="Exercises: list, new, validate, suggest, bands, schema, pack, unpack, trial.")
+app = Commands(help="Exercises: list, new, validate, bands, pack, unpack, trial.")
 
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 

@@ -133,6 +133,11 @@ class BoardTab(QWidget):
         self.board: ProgressBoard | None = None
         self.form, self.export = QComboBox(self), button(tr("Export…"))
         self.form.setAccessibleName(tr("Form of the results"))
+        # Its longest entry would make the page wider than a small screen; the list shows it whole.
+        self.form.setSizeAdjustPolicy(
+            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        )
+        self.form.setMinimumContentsLength(14)
         for title, name in (
             (tr("Table, a row for each metric (CSV)"), "tidy"),
             (tr("Table, a row for each student (CSV)"), "wide"),
@@ -153,6 +158,7 @@ class BoardTab(QWidget):
             (self._of_group, self.group),
         ):
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+            box.setAccessibleName(words.text())
             top.addWidget(words)
             top.addWidget(box)
         top.addStretch(1)
