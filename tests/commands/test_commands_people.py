@@ -268,6 +268,7 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("exercise", "pack", "first-insertion", "--out", out),
         ("exercise", "unpack", out),
         ("exercise", "trial", "first-insertion", "--seeds", "1"),
+        ("exercise", "bands", "first-insertion", "--experienced", "A"),
         ("people", "list"),
         ("people", "remark", first, "--release"),
         ("course", "list"),
