@@ -312,7 +312,7 @@ def _build_rig(
         start=Start.SIMULATED if robot is None else Start.REAL,
         beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
         simulated=robot is None and real is None,
-        scripted=setup.by_program,
+        by_program=setup.by_program,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 

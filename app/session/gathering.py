@@ -2,7 +2,8 @@
 
 - Attempts are added and never changed. Where one is here already under the same id with another
   digest the one that is here stays, and the other is named and left out.
-- Of remarks the latest by the stations' signed counters holds (`said`), whatever any clock says.
+- Of remarks the latest by the stations' signed counters holds (`station_results`), whatever any
+  clock says.
 - Who was erased anywhere is erased here and never comes back; tombstones tell, which name nobody.
   Records go too, unless they were kept as nobody's wherever the person was erased.
 - Limits of courses are held over all attempts together; what is beyond is marked (`limits`).
@@ -35,22 +36,22 @@ from app.session.header import TRASH
 from app.session.journal import Step, move, removal
 from app.session.limits import hold_limits
 from app.session.people import People, Person, tables
-from app.session.said import (
+from app.session.school_file import SchoolManifest, read_manifest, stations_with
+from app.session.school_tables import COUNTED, TOMBSTONES, ErasedKeys
+from app.session.sidecar import file_digest, read_kept, sidecar, summary_text
+from app.session.signature import RECORD, shown_of, signature_file
+from app.session.station import StationKey, signature_holds
+from app.session.station_results import (
     COUNTER,
     CountedAttempt,
     SignedRemark,
     counted_attempts,
     counter_of,
     put_remarks,
+    sign_and_number,
     signed_remarks,
-    take_stock,
     tombstones,
 )
-from app.session.school_file import SchoolManifest, read_manifest, stations_with
-from app.session.school_tables import COUNTED, TOMBSTONES, Graves
-from app.session.sidecar import file_digest, read_kept, sidecar, summary_text
-from app.session.signature import RECORD, shown_of, signature_file
-from app.session.station import StationKey, signature_holds
 from app.session.stations import (
     KnownStation,
     put_setting,
@@ -126,7 +127,7 @@ def gather_file(
             key = StationKey.of(people.folder)
             known = stations_with(manifest, stations_of(people), key, source, trust)
             settled(folder)
-            take_stock(folder, people, key, progress.part(0.0, 0.2))
+            sign_and_number(folder, people, key, progress.part(0.0, 0.2))
             at = _Gathering(archive, source, manifest, folder, people, key, known)
             at.take(names, progress.part(0.2, 1.0))
     except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
@@ -171,7 +172,7 @@ class _Gathering:
     key: StationKey
     known: Mapping[str, KnownStation]
     done: GatheredFile = field(default_factory=GatheredFile)
-    graves: Graves = field(default_factory=lambda: Graves(()))
+    erased_keys: ErasedKeys = field(default_factory=lambda: ErasedKeys(()))
     counted: list[CountedAttempt] = field(default_factory=list)
     steps: list[Step] = field(default_factory=list)
     courses: list[Path] = field(default_factory=list)
@@ -189,7 +190,7 @@ class _Gathering:
         def prepare() -> None:
             with self.people.database.read() as connection:
                 stones = tombstones(connection)
-            self.graves = Graves({*stones, *self.manifest.tombstones})
+            self.erased_keys = ErasedKeys({*stones, *self.manifest.tombstones})
             for stage in stages.values():
                 stage.mkdir(mode=0o700)
             self._stage(stages, progress)
@@ -228,7 +229,7 @@ class _Gathering:
             or signature not in self.manifest.files
         ):
             raise ArchiveError(_damaged(self.source, record))
-        if attempt.attempt in gone or self.graves.of(attempt.student) == "deleted":
+        if attempt.attempt in gone or self.erased_keys.of(attempt.student) == "deleted":
             self.done = replace(self.done, left_out=self.done.left_out + 1)
             return
         target = self.folder / f"{attempt.attempt}{SUFFIX}"
@@ -340,7 +341,7 @@ class _Gathering:
         for remark in self.manifest.remarks:
             place = (remark.attempt, remark.kind)
             before = later.get(place, latest.get(place))
-            if self.graves.of(remark.student):
+            if self.erased_keys.of(remark.student):
                 self.done = replace(self.done, left_out=self.done.left_out + 1)
             elif before is not None and before.order() >= remark.order():
                 continue
@@ -371,7 +372,7 @@ class _Gathering:
         taken = {one.pseudonym.casefold(): one.key for one in known.values()}
         for one in self.manifest.people:
             holder = taken.get(one.pseudonym.casefold(), one.key)
-            if self.graves.of(one.key):
+            if self.erased_keys.of(one.key):
                 self.done = replace(self.done, left_out=self.done.left_out + 1)
                 continue
             if one.key not in known and holder != one.key:
@@ -393,7 +394,7 @@ class _Gathering:
             if names and one.name:
                 after.setdefault(one.key, one.name)
         self._erase(connection, set(known))
-        after = {key: name for key, name in after.items() if not self.graves.of(key)}
+        after = {key: name for key, name in after.items() if not self.erased_keys.of(key)}
         if after != listed:
             write_names(after)
 
@@ -402,21 +403,19 @@ class _Gathering:
         counted = counted_attempts(connection)
         latest = signed_remarks(connection)
         students = known | {one.student for one in counted.values()}
-        gone = {key for key in students if self.graves.of(key)}
+        gone = {key for key in students if self.erased_keys.of(key)}
         if not gone:
             return
         numbered = {name: one.student for name, one in counted.items()}
-        paths_ = [*records(self.folder), *records(self.folder / TRASH)]
-        whose = {
-            path: numbered.get(path.stem) or read_kept(path).summary.student for path in paths_
-        }
+        files = [*records(self.folder), *records(self.folder / TRASH)]
+        whose = {path: numbered.get(path.stem) or read_kept(path).summary.student for path in files}
         own = [path for path, student in whose.items() if student in gone]
-        lost = [path for path in own if self.graves.of(whose[path]) == "deleted"]
+        lost = [path for path in own if self.erased_keys.of(whose[path]) == "deleted"]
         names = {name for name, student in numbered.items() if student in gone}
         comments = names | {path.stem for path in own}
-        comments |= {place[0] for place, one in latest.items() if self.graves.of(one.student)}
+        comments |= {place[0] for place, one in latest.items() if self.erased_keys.of(one.student)}
         ids = {path.stem for path in lost}
-        ids |= {name for name in names if self.graves.of(numbered[name]) == "deleted"}
+        ids |= {name for name in names if self.erased_keys.of(numbered[name]) == "deleted"}
         self.people.forget_in(connection, sorted(gone), sorted(comments), sorted(ids))
         self.steps += [removal(file) for path in lost for file in beside(path)]
         self.done = replace(self.done, erased=len(gone & known))

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 from app.session.course import Course, courses, read_course
 from app.session.people import Person, tables
-from app.session.said import CountedAttempt, counted_attempts
 from app.session.school_tables import EXCESS
+from app.session.station_results import CountedAttempt, counted_attempts
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection

@@ -30,7 +30,14 @@ from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
 from app.session.roster import RosterLine, checked_pin, judged_lines
-from app.session.school_tables import COUNTED, EXCESS, SAID, TOMBSTONES, Tombstone, add_tables
+from app.session.school_tables import (
+    COUNTED,
+    EXCESS,
+    SIGNED_REMARKS,
+    TOMBSTONES,
+    Tombstone,
+    add_tables,
+)
 from app.session.station import StationKey, new_recovery_key, opens
 from app.session.tries import (
     INSTRUCTOR,
@@ -525,7 +532,7 @@ class People:
             connection.execute(put.on_conflict_do_nothing())
             connection.execute(t[COUNTED].delete().where(t[COUNTED].c.attempt == attempt))
         for attempt in comments:
-            for table in (t["remarks"], t["admitted"], t[SAID], t[EXCESS]):
+            for table in (t["remarks"], t["admitted"], t[SIGNED_REMARKS], t[EXCESS]):
                 connection.execute(table.delete().where(table.c.attempt == attempt))
 
     # --- for rooms that change people with other things -------------------------------------------
@@ -727,6 +734,6 @@ OF_PERSON: Final = {
     "persons": "key",
     "members": "person",
     "failures": "account",
-    "said": "student",
+    SIGNED_REMARKS: "student",
 }
 """Tables that hold something of a person, each with the column of its key."""

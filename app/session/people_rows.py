@@ -22,8 +22,8 @@ from app.session.school_tables import (
     COUNTED,
     EXCESS,
     NUMBERS,
-    SAID,
     SCHOOL,
+    SIGNED_REMARKS,
     STATIONS,
     TOMBSTONES,
 )
@@ -98,7 +98,7 @@ def merged(here: PeopleRows, there: PeopleRows) -> PeopleRows:
     found = {name: there.rows(name) for name in ("persons", "members")}
     for name in ("remarks", "admitted", "erased", "erased_attempts", COUNTED, TOMBSTONES, EXCESS):
         found[name] = _union(here.rows(name), there.rows(name))
-    found[SAID] = _latest(here.rows(SAID), there.rows(SAID))
+    found[SIGNED_REMARKS] = _latest(here.rows(SIGNED_REMARKS), there.rows(SIGNED_REMARKS))
     revoked = _columns()[STATIONS].index("revoked")
     still = tuple(row for row in here.rows(STATIONS) if row[revoked])
     found[STATIONS] = _union(_union(here.rows(STATIONS), there.rows(STATIONS)), still)
@@ -113,7 +113,7 @@ def merged(here: PeopleRows, there: PeopleRows) -> PeopleRows:
         place = _columns()[name].index(column)
         found[name] = tuple(row for row in found[name] if row[place] not in gone)
     lost = {str(row[0]) for row in found["erased_attempts"]}
-    for name in ("remarks", "admitted", SAID, COUNTED, EXCESS):
+    for name in ("remarks", "admitted", SIGNED_REMARKS, COUNTED, EXCESS):
         found[name] = tuple(row for row in found[name] if row[0] not in lost)
     return PeopleRows(found)
 
@@ -204,7 +204,7 @@ def _union(first: Rows, second: Rows) -> Rows:
 
 def _latest(first: Rows, second: Rows) -> Rows:
     """Return signed remarks of both, of each the one with the higher counter."""
-    counter = _columns()[SAID].index("counter")
+    counter = _columns()[SIGNED_REMARKS].index("counter")
     rows = sorted((*first, *second), key=lambda row: int(row[counter] or 0))
     return tuple({(row[0], row[1]): row for row in rows}.values())
 

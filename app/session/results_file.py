@@ -20,19 +20,11 @@ from app.session.course import Course, courses_folder
 from app.session.errors import SessionError
 from app.session.journal import Journal, removal
 from app.session.people import PEOPLE, People, tables
-from app.session.said import (
-    CountedAttempt,
-    counted_attempts,
-    counter_of,
-    signed_remarks,
-    take_stock,
-    tombstones,
-)
 from app.session.school_file import (
     COURSE,
     RESULTS,
     SchoolManifest,
-    Traveller,
+    SentStudent,
     attempts_of,
     packed_digest,
     write_manifest,
@@ -40,6 +32,14 @@ from app.session.school_file import (
 from app.session.sidecar import cached, file_digest
 from app.session.signature import Signed, read_signature, signature_text
 from app.session.station import StationKey
+from app.session.station_results import (
+    CountedAttempt,
+    counted_attempts,
+    counter_of,
+    sign_and_number,
+    signed_remarks,
+    tombstones,
+)
 from app.session.stations import KnownStation, name_of_station, stations_of
 from app.session.store import SUFFIX, settled
 
@@ -88,9 +88,7 @@ def write_results(
         ArchiveError: if it cannot be written.
     """
     people, progress = people or People(), progress or Progress()
-    key = StationKey.of(people.folder)
-    settled(folder)
-    take_stock(folder, people, key, progress.part(0.0, 0.3))
+    key = _up_to_date(folder, people, progress)
 
     def fill(archive: zipfile.ZipFile) -> WrittenFile:
         with people.database.read() as connection:
@@ -105,16 +103,17 @@ def write_results(
             one for name, one in every.items() if name in wanted and one.station == key.station
         )
         files: dict[str, str] = {}
+        taken: list[CountedAttempt] = []
         left: list[str] = []
-        taken: list[str] = []
         for number, one in enumerate(own):
             progress.report(0.3 + 0.7 * number / len(own), one.attempt)
-            digests = _pack(archive, folder, one, key)
-            files |= digests
-            path = folder / f"{one.attempt}{SUFFIX}"
-            (taken if digests else left).append(one.attempt)
-            if not digests and not path.exists():
-                left.pop()  # deleted here: it is not this station's result any more
+            if not (folder / f"{one.attempt}{SUFFIX}").exists():
+                continue  # deleted here: it is not this station's result any more
+            if digests := _pack(archive, folder, one, key):
+                files |= digests
+                taken.append(one)
+            else:
+                left.append(one.attempt)
         mine = [
             one
             for one in remarks
@@ -125,7 +124,7 @@ def write_results(
             _sender(people, key, counter),
             tuple(key.succession()),
             files,
-            tuple(one for one in own if one.attempt in set(taken)),
+            tuple(taken),
             tuple(mine),
             tuple(stones),
         )
@@ -159,15 +158,13 @@ def write_course(
         ArchiveError: if it cannot be written.
     """
     people, progress = people or People(), progress or Progress()
-    key = StationKey.of(people.folder)
-    settled(folder)
-    take_stock(folder, people, key, progress.part(0.0, 0.3))
+    key = _up_to_date(folder, people, progress)
 
     def fill(archive: zipfile.ZipFile) -> WrittenFile:
         with people.database.read() as connection:
             stones, counter = tombstones(connection), counter_of(connection)
         known = tuple(stations_of(people).values())
-        students = tuple(_travellers(people, names, pins))
+        students = tuple(_students(people, names, pins))
         members = [*_courses(people), *own_files()]
         files, courses = {}, 0
         for number, (name, path) in enumerate(members):
@@ -192,6 +189,14 @@ def write_course(
 
 
 # --- inside ---------------------------------------------------------------------------------------
+def _up_to_date(folder: Path, people: People, progress: Progress) -> StationKey:
+    """Sign and number what is new here, before it is written; return the key of this station."""
+    key = StationKey.of(people.folder)
+    settled(folder)
+    sign_and_number(folder, people, key, progress.part(0.0, 0.3))
+    return key
+
+
 def _whole(
     out: Path, people: People, fill: Callable[[zipfile.ZipFile], WrittenFile]
 ) -> WrittenFile:
@@ -226,8 +231,6 @@ def _pack(
 ) -> dict[str, str]:
     """Pack a record with its signature; nothing where one of them is not what it was."""
     path = folder / f"{attempt.attempt}{SUFFIX}"
-    if not path.exists():
-        return {}
     step("pack", path)
     document, check = read_signature(path, key)
     if check.verdict is not Signed.VERIFIED or document["record"] != file_digest(path):
@@ -242,7 +245,7 @@ def _pack(
     return {name: packed_digest(data, name, archive) for name, data in names.items()}
 
 
-def _travellers(people: People, names: bool, pins: bool) -> Iterator[Traveller]:
+def _students(people: People, names: bool, pins: bool) -> Iterator[SentStudent]:
     from sqlalchemy import select
 
     hashes: dict[str, str] = {}
@@ -254,7 +257,7 @@ def _travellers(people: People, names: bool, pins: bool) -> Iterator[Traveller]:
                 for key, pin in connection.execute(select(persons.key, persons.pin))
             }
     for one in people.everybody(names):
-        yield Traveller(one.key, one.pseudonym, one.groups, one.name, hashes.get(one.key, ""))
+        yield SentStudent(one.key, one.pseudonym, one.groups, one.name, hashes.get(one.key, ""))
 
 
 def _courses(people: People) -> Iterator[tuple[str, Path]]:

@@ -25,9 +25,9 @@ from app.core.messages import sentence
 from app.session.backup_file import ArchiveError, may_hold
 from app.session.errors import PeopleError
 from app.session.roster import checked_pseudonym, looks_like_a_key
-from app.session.said import CountedAttempt, SignedRemark
 from app.session.school_tables import Tombstone
 from app.session.station import StationKey, signature_holds
+from app.session.station_results import CountedAttempt, SignedRemark
 from app.session.stations import (
     KnownStation,
     checked_name,
@@ -53,7 +53,7 @@ class UnknownStationError(ArchiveError):
 
 
 @dataclass(frozen=True, slots=True)
-class Traveller:
+class SentStudent:
     """A student as a course for a station tells of them.
 
     Attributes:
@@ -83,7 +83,7 @@ class Traveller:
         return {"key": self.key, "pseudonym": self.pseudonym, "pin": pin, "created": created}
 
     @classmethod
-    def of(cls, document: Mapping[str, Any]) -> Traveller:
+    def of(cls, document: Mapping[str, Any]) -> SentStudent:
         """Read what `document` gave.
 
         Raises:
@@ -119,7 +119,7 @@ class SchoolManifest:
     attempts: tuple[CountedAttempt, ...] = ()
     remarks: tuple[SignedRemark, ...] = ()
     tombstones: tuple[Tombstone, ...] = ()
-    people: tuple[Traveller, ...] = ()
+    people: tuple[SentStudent, ...] = ()
     stations: tuple[KnownStation, ...] = ()
 
     def publics(self, known: Mapping[str, KnownStation]) -> set[str]:
@@ -287,7 +287,7 @@ def _checked(document: Mapping[str, Any], source: Path) -> SchoolManifest:
             attempts=tuple(map(CountedAttempt.of, document["attempts"])),
             remarks=tuple(map(SignedRemark.of, document["remarks"])),
             tombstones=tuple(map(_tombstone, document["tombstones"])),
-            people=tuple(map(Traveller.of, document["people"])),
+            people=tuple(map(SentStudent.of, document["people"])),
             stations=tuple(map(KnownStation.of, document["stations"])),
         )
         checked_name(manifest.sender.name)

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from sqlalchemy import MetaData
 
 STATIONS: Final = "stations"
-SAID: Final = "said"
+SIGNED_REMARKS: Final = "signed_remarks"
 TOMBSTONES: Final = "tombstones"
 COUNTED: Final = "counted"
 EXCESS: Final = "excess"
 
-SCHOOL: Final = (STATIONS, SAID, TOMBSTONES, COUNTED, EXCESS)
+SCHOOL: Final = (STATIONS, SIGNED_REMARKS, TOMBSTONES, COUNTED, EXCESS)
 """Names of the tables; lists of people before version 3 have none of them."""
 
 NUMBERS: Final = ("counter", "revoked", "anonymous", "number", "version", "uses", "attempts")
@@ -49,7 +49,7 @@ class Tombstone(NamedTuple):
         return self.digest == _digest(self.salt, key)
 
 
-class Graves:
+class ErasedKeys:
     """Tombstones to be asked about keys, each answer computed once.
 
     Args:
@@ -89,7 +89,7 @@ def add_tables(known: MetaData) -> None:
     Table(STATIONS, known, public, *named)
     place = (text("attempt", primary_key=True), text("kind", primary_key=True))
     signed = (text("station"), whole("counter"), text("public"), text("signature"))
-    Table(SAID, known, *place, text("value"), text("student"), *signed)
+    Table(SIGNED_REMARKS, known, *place, text("value"), text("student"), *signed)
     Table(TOMBSTONES, known, text("digest", primary_key=True), text("salt"), flag("anonymous"))
     attempt = text("attempt", primary_key=True)
     order = (text("station"), whole("number"), text("record"), text("student"))

@@ -94,7 +94,7 @@ class Trainer:
         start: Start = Start.ANYWHERE,
         beginnings: Beginnings | None = None,
         simulated: bool = False,
-        scripted: bool = False,
+        by_program: bool = False,
     ) -> None:
         """Keep the parts.
 
@@ -106,8 +106,8 @@ class Trainer:
         `trust` says how far a depth by the cameras is believed, `start` how the needle comes out of
         the skin before an attempt, `beginnings` where a simulated hand that a person moves begins;
         None for where scripts do. `simulated` says that robot and cameras both are: they rest while
-        nobody wants them, and no pause is a real camera's fault. `scripted` says that a program in
-        the loop moves the hand: by a paced clock it needs no window that lives, and never rests.
+        nobody wants them, and no pause is a real camera's fault. `by_program` says that no person
+        moves the hand: by a paced clock it needs no window that lives, and never rests.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -132,9 +132,9 @@ class Trainer:
         real = isinstance(self._clock, SystemClock)
         paced = self._clock if isinstance(self._clock, PacedClock) else None
         self._standstill = Standstill() if real else Standstill(lambda: 0.0)
-        self._simulated, self._scripted = simulated, scripted
+        self._simulated, self._by_program = simulated, by_program
         # Who waits for a rest waits by the wall: another time stands meanwhile.
-        may_rest = simulated and (real or (paced is not None and not scripted))
+        may_rest = simulated and (real or (paced is not None and not by_program))
         self.resting = Resting(
             may_rest,
             SystemClock() if paced is not None else self._clock,
@@ -538,7 +538,7 @@ class Trainer:
 
     def _look(self) -> None:
         """Do one tick; a hand that the program leads needs no window that lives."""
-        if self._paced is not None and self._scripted:
+        if self._paced is not None and self._by_program:
             self.heartbeat()
         self.tick(self._clock.now())
 

@@ -37,13 +37,13 @@ class ModelStation:
         self.attempts: dict[str, tuple[str, str, str]] = {}  # id: student, station, digest
         self.shown: dict[tuple[str, str], str] = {}
         self.signed: dict[tuple[str, str], tuple[int, str, str]] = {}
-        self.graves: set[tuple[str, bool]] = set()
+        self.erased_keys: set[tuple[str, bool]] = set()
 
     def gone(self) -> set[str]:
-        return {student for student, _ in self.graves}
+        return {student for student, _ in self.erased_keys}
 
     def lost(self) -> set[str]:
-        return {student for student, anonymous in self.graves if not anonymous}
+        return {student for student, anonymous in self.erased_keys if not anonymous}
 
     def forget(self, students: set[str], records: set[str]) -> None:
         dead = {name for name, one in self.attempts.items() if one[0] in students}
@@ -72,12 +72,12 @@ class ModelStation:
         mine = {p: v for p, v in self.signed.items() if v[1] == stations[self.name]}
         whose = {p: self.attempts[p[0]][0] for p in mine if p[0] in self.attempts}
         whose |= {p: self.whose[p] for p in mine if p in self.whose}
-        return own, mine, whose, set(self.graves)
+        return own, mine, whose, set(self.erased_keys)
 
     def take(self, file: tuple, stations: dict[str, str]) -> None:
         self.sign(stations)
-        own, mine, whose, graves = file
-        self.graves |= graves
+        own, mine, whose, erased_keys = file
+        self.erased_keys |= erased_keys
         self.attempts |= {n: one for n, one in own.items() if one[0] not in self.lost()}
         for place, value in mine.items():
             self.seen = max(self.seen, value[0])
@@ -183,7 +183,7 @@ def _play(plan: list, rng: random.Random, root: Path, patch: pytest.MonkeyPatch)
             student, anonymous = students[more[0]], more[1]
             station.enter()
             erase_person(student, station.folder, not anonymous)
-            plain.graves.add((student, anonymous))
+            plain.erased_keys.add((student, anonymous))
             plain.forget({student}, set() if anonymous else {student})
     for number in range(3):
         write(number)

@@ -12,9 +12,9 @@ from app.session.archive import backup, erase_person, restore_backup
 from app.session.people import PEOPLE, VERSION, People
 from app.session.results_file import write_results
 from app.session.roster import RosterLine
-from app.session.said import tombstones
-from app.session.school_tables import SCHOOL, Graves
+from app.session.school_tables import SCHOOL, ErasedKeys
 from app.session.station import StationKey
+from app.session.station_results import tombstones
 from app.session.stations import KnownStation, put_stations, revoke, stations_of
 
 OTHER = KnownStation("0123456789abcdef", "B", "ab" * 32, 1)
@@ -61,8 +61,12 @@ def test_who_was_erased_before_there_were_tombstones_is_told_by_one(one: Place) 
     made_older(one.people.folder / PEOPLE)
     write_results(one.folder.parent / "r", one.folder)
     with People().database.read() as connection:
-        graves = Graves(tombstones(connection))
-    assert (graves.of(ada), graves.of(bob), graves.of("p-000000000000")) == ("kept", "deleted", "")
+        erased_keys = ErasedKeys(tombstones(connection))
+    assert (erased_keys.of(ada), erased_keys.of(bob), erased_keys.of("p-000000000000")) == (
+        "kept",
+        "deleted",
+        "",
+    )
 
 
 def test_a_backup_of_the_form_before_is_restored(

@@ -1,4 +1,4 @@
-"""What this station vouches for: its attempts in their order, and what was said here of attempts.
+"""A station's own results: its attempts in their order, and its signed remarks on attempts.
 
 Each remark (comment, void mark, release) is signed with this station's counter, which is higher
 than that of every remark that it knows. So of two remarks the one whose station knew the other is
@@ -18,7 +18,7 @@ from app.scoring.conditions import Conditions
 from app.session.header import TRASH
 from app.session.machine import FINAL
 from app.session.people import NOTHING_SAID, People, Remarks, tables
-from app.session.school_tables import COUNTED, SAID, TOMBSTONES, Tombstone
+from app.session.school_tables import COUNTED, SIGNED_REMARKS, TOMBSTONES, Tombstone
 from app.session.sidecar import read_kept
 from app.session.signature import Signed, read_signature
 from app.session.station import StationKey, signature_holds
@@ -130,7 +130,7 @@ class CountedAttempt(NamedTuple):
         return one if isinstance(one.version, int) else one._replace(version=0)
 
 
-def take_stock(folder: Path, people: People, key: StationKey, progress: Progress) -> None:
+def sign_and_number(folder: Path, people: People, key: StationKey, progress: Progress) -> None:
     """Sign what was said here, and number the attempts of this station, since the last time.
 
     Args:
@@ -157,7 +157,7 @@ def take_stock(folder: Path, people: People, key: StationKey, progress: Progress
                 values = numbered[one.attempt]._asdict()
                 connection.execute(tables()[COUNTED].insert(), values)
         _sign(connection, folder, numbered, key)
-        _bury(connection, folder, numbered)
+        _add_tombstones(connection, folder, numbered)
 
 
 def counted_attempts(connection: Connection) -> dict[str, CountedAttempt]:
@@ -172,7 +172,7 @@ def signed_remarks(connection: Connection) -> dict[tuple[str, str], SignedRemark
     """Return the latest signed remarks, by attempt and field."""
     from sqlalchemy import select
 
-    rows = connection.execute(select(tables()[SAID]))
+    rows = connection.execute(select(tables()[SIGNED_REMARKS]))
     return {(row.attempt, row.kind): SignedRemark(*row) for row in rows}
 
 
@@ -188,7 +188,7 @@ def put_remarks(connection: Connection, rows: Iterable[SignedRemark]) -> None:
     """Keep signed remarks as the latest of their attempts, and let them be what is said."""
     from sqlalchemy.dialects.sqlite import insert
 
-    said, remarks = tables()[SAID], tables()["remarks"]
+    said, remarks = tables()[SIGNED_REMARKS], tables()["remarks"]
     for one in rows:
         values = one._asdict()
         put = insert(said).values(**values)
@@ -206,7 +206,7 @@ def counter_of(connection: Connection) -> int:
     settings = tables()["settings"].c
     wanted = select(settings.value).where(settings.name == COUNTER)
     kept = connection.execute(wanted).scalar() or "0"
-    most = connection.execute(select(func.max(tables()[SAID].c.counter))).scalar() or 0
+    most = connection.execute(select(func.max(tables()[SIGNED_REMARKS].c.counter))).scalar() or 0
     return max(int(kept) if str(kept).isdecimal() else 0, int(most))
 
 
@@ -267,7 +267,9 @@ def _sign(
         put_setting(connection, COUNTER, str(counter))
 
 
-def _bury(connection: Connection, folder: Path, numbered: Mapping[str, CountedAttempt]) -> None:
+def _add_tombstones(
+    connection: Connection, folder: Path, numbered: Mapping[str, CountedAttempt]
+) -> None:
     """Make tombstones of who was erased before there were any."""
     from sqlalchemy import select
 
