@@ -182,6 +182,17 @@ def test_the_share_does_not_flicker_and_is_never_nothing():
     assert shares[-1] == pytest.approx(0.1)
 
 
+def test_a_share_between_two_tenths_is_said_as_one_of_them_and_forgotten_with_the_attempt():
+    pace, now, time, shares = WorldPace(), 0.0, 0.0, []
+    for i in range(2000):
+        now += 0.02
+        time += 0.02 * (0.66 if i // 150 % 2 else 0.64)
+        shares.append(pace.note(now, time))
+    assert len(set(shares[100:])) == 1
+    pace.begin()
+    assert pace.note(now + 0.02, time + 0.002) == 1.0
+
+
 def test_the_rail_says_that_time_runs_slower_before_what_is_not_drawn(qt):
     rail = AttemptRail()
     rail.show()
