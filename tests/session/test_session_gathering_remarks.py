@@ -1,5 +1,7 @@
 """Remarks of several stations: the latest by their counters holds, and nobody else's are taken."""
 
+import json
+import zipfile
 from itertools import permutations
 from pathlib import Path
 
@@ -11,6 +13,7 @@ from app.session.errors import SessionError
 from app.session.gathering import gather_file
 from app.session.people import People
 from app.session.results_file import write_course, write_results
+from app.session.station import StationKey
 
 
 @pytest.fixture
@@ -105,6 +108,43 @@ def test_a_remark_that_was_changed_after_it_was_signed_lets_nothing_of_the_file_
     assert two.enter().remarks() == {}
     assert list(two.folder.glob("*.mcap")) == []
     assert heard(two, out).remarks == 1
+
+
+def test_nobody_is_quoted_by_another_known_station(
+    school, tmp_path: Path, patch: pytest.MonkeyPatch
+) -> None:
+    """What another known station has signed in this one's name is not this one's word."""
+    one, two = school
+    name = one.record(student())
+    one.enter().remark(name, comment="well done")
+    out = told(one, tmp_path / "a")
+    three = joined(tmp_path, "C", patch)
+    heard(two, told(three, tmp_path / "c"))
+    three.enter()
+    other = StationKey.of()
+
+    def change(of: dict, _: dict[str, bytes]) -> None:
+        remark = of["remarks"][0] | {"value": "failed", "public": other.public}
+        bare = {key: remark[key] for key in remark if key not in ("public", "signature")}
+        of["remarks"][0] = remark | {"signature": other.sign("remark", bare)}
+
+    with pytest.raises(SessionError, match="is forged: a remark in it is not signed"):
+        heard(two, resigned(out, tmp_path / "b", one, change))
+
+
+def test_a_station_passes_on_what_it_said_itself_alone(school, tmp_path: Path) -> None:
+    one, two = school
+    name = one.record(student())
+    one.enter().remark(name, comment="well done")
+    heard(two, told(one, tmp_path / "a"))
+    mine = two.record(student())
+    two.enter().remark(mine, void="bent")
+    done = heard(one, told(two, tmp_path / "b"))
+    assert (done.attempts, done.remarks) == (1, 1)
+    with zipfile.ZipFile(tmp_path / "b") as archive:
+        manifest = json.loads(archive.read("manifest.json"))
+    for part in ("attempts", "remarks"):
+        assert [row["attempt"] for row in manifest[part]] == [mine]
 
 
 @pytest.mark.parametrize("part", ["remarks", "attempts"])

@@ -131,6 +131,7 @@ def test_stations_that_a_known_ones_course_names_are_known(school, tmp_path: Pat
 
 
 Members = dict[str, bytes]
+KEYS: dict[str, StationKey] = {}
 
 
 def as_another_student(manifest: dict, _: Members) -> None:
@@ -155,6 +156,13 @@ def signed_by_a_new_key(manifest: dict, members: Members) -> None:
     members[name] = signature_text(document, false).encode()
 
 
+def signed_by_another_known_station(manifest: dict, members: Members) -> None:
+    """Sign an attempt in the name of its station, by the key of one that is known as another."""
+    name = f"records/{manifest['attempts'][0]['attempt']}.sig"
+    document = json.loads(members[name])
+    members[name] = signature_text(document, KEYS["head"]).encode()
+
+
 def with_another_total(manifest: dict, members: Members) -> None:
     name = f"records/{manifest['attempts'][0]['attempt']}.sig"
     document = json.loads(members[name])
@@ -164,13 +172,22 @@ def with_another_total(manifest: dict, members: Members) -> None:
 
 @pytest.mark.parametrize(
     "change",
-    [as_another_student, as_another_exercise, swapped, signed_by_a_new_key, with_another_total],
+    [
+        as_another_student,
+        as_another_exercise,
+        swapped,
+        signed_by_a_new_key,
+        signed_by_another_known_station,
+        with_another_total,
+    ],
 )
 def test_an_attempt_is_what_its_station_signed_of_it_and_nothing_else(
     school, tmp_path: Path, change: Callable[[dict, Members], None]
 ) -> None:
-    one, two, _ = school
-    one.record(student(1))
+    one, two, head = school
+    head.enter()
+    KEYS["head"] = StationKey.of()
+    one.record(student())  # of the same student, so that ids alone tell them apart
     out = results(one, tmp_path / "two")
     forged = resigned(out, tmp_path / "forged", one, change)
     for path in two.folder.glob("*"):

@@ -146,6 +146,15 @@ def test_time_waits_for_what_a_person_is_shown_in_an_attempt_and_for_no_script(d
     assert len(desk.trainer.told("lead")) == 3
 
 
+def test_time_waits_for_nobody_where_an_expert_only_shows_the_exercise(desk):
+    trainer = FakeTrainer()
+    trainer.now = snapshot(trainer.placed, state=State.ALIGNING)
+    desk.controller.attach(run(trainer, demonstrates=True))
+    desk.controller._timer.stop()
+    look(desk, 3, 0.016)
+    assert trainer.told("lead") == []
+
+
 def test_a_slowed_world_is_spoken_of_and_no_longer_when_it_is_as_fast_as_the_wall(desk):
     shares = []
     desk.controller.slowed.connect(shares.append)
