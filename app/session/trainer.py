@@ -668,7 +668,7 @@ class Trainer:
         self._hand.forget()
         self._inputs.unsteady(0, 0)
         now = self._clock.now()
-        if self._paced is not None and (lost := self._paced.lost - self._lost_before) > SLOWED_S:
+        if (lost := self.lost) > SLOWED_S:
             self._running.say(SLOWED, slowed_words(lost), now, {"seconds": lost})
         result = self._running.finish(event, self._sources.seen, self._inputs, now, reason)
         self.disarm()  # a key that was pressed while the attempt was ending

@@ -29,6 +29,21 @@ def test_of_two_groups_that_overlap_as_few_as_can_be_are_on_the_wrong_side() -> 
     assert bands.expert == pytest.approx(2.0 + 0.5 * 0.8416, abs=0.1)  # 80 % point of a normal one
 
 
+def test_of_several_values_with_as_few_on_the_wrong_side_the_middle_one_is_pass() -> None:
+    """By hand: 2.5 and 6.5 leave two of six on the wrong side, 4.5 one of either, 3.5 more."""
+    bands = contrasted([1.0, 2.0, 2.0, 2.0, 4.0, 6.0], [3.0, 5.0, 7.0, 8.0, 8.0, 8.0])
+    assert bands is not None
+    assert bands.pass_ == pytest.approx(4.5)
+    assert bands.expert == pytest.approx(4.0)
+    assert bands.zero == pytest.approx(7.5), "the median of the others, which is not their mean"
+
+
+def test_where_half_of_both_are_on_the_wrong_side_at_best_there_are_no_bands() -> None:
+    """A fifth of the ones do badly, nearly half of the others do best of all."""
+    careful = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 40.0, 40.0]
+    assert contrasted(careful, [0.5] * 9 + [30.0] * 10) is None
+
+
 def test_the_sign_of_a_value_does_not_count() -> None:
     careful, hasty = [-0.1, 0.2, -0.3], [-2.0, 3.0, 4.0]
     assert contrasted(careful, hasty) == contrasted(np.abs(careful), np.abs(hasty))

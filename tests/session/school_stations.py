@@ -3,6 +3,8 @@
 import hashlib
 import json
 import shutil
+import zipfile
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -119,6 +121,31 @@ def stored(station: SchoolStation) -> dict[str, object]:
         "excess": {name for name, one in said.items() if one.excess},
         "people": {one.key for one in people.everybody()},
     }
+
+
+def resigned(
+    source: Path,
+    to: Path,
+    station: SchoolStation,
+    change: Callable[[dict, dict[str, bytes]], object],
+) -> Path:
+    """Let a station sign a file of which a function has changed the manifest, or other members."""
+    station.enter()
+    key = StationKey.of()
+    with zipfile.ZipFile(source) as old:
+        members = {info.filename: old.read(info) for info in old.infolist()}
+        packing = {info.filename: info.compress_type for info in old.infolist()}
+    manifest = json.loads(members["manifest.json"])
+    change(manifest, members)
+    for name in manifest["files"]:
+        manifest["files"][name] = hashlib.sha256(members[name]).hexdigest()
+    text = members["manifest.json"] = json.dumps(manifest).encode()
+    digest = hashlib.sha256(text).hexdigest()
+    members["manifest.sig"] = key.sign("file", {"manifest": digest}).encode()
+    with zipfile.ZipFile(to, "w") as new:
+        for name, data in members.items():
+            new.writestr(name, data, packing[name])
+    return to
 
 
 def document_of(path: Path) -> dict:

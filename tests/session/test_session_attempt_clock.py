@@ -1,10 +1,14 @@
 """The student's clock starts with the attempt and stands in its pauses, as the rail's does."""
 
+from pathlib import Path
+
 import pytest
+from session_fakes import Bench
 
 from app.core.events import Event
 from app.session.attempt_clock import AttemptClock
 from app.session.machine import Attempt, AttemptEvent, advance
+from app.session.recording import read_recording
 
 COURSE = (
     (100.0, AttemptEvent.PREPARE),
@@ -50,6 +54,25 @@ def test_the_clock_stands_once_the_attempt_is_over():
 def test_the_moment_of_what_it_shows_is_where_it_shows_it(shown):
     clock = AttemptClock.of(walked(1000.0)[1])
     assert clock.at(clock.moment(shown)) == pytest.approx(shown)
+
+
+def test_a_pause_begins_at_the_first_moment_that_shows_its_time():
+    """The clock shows 28 s all through a pause: what happened then happened as it began."""
+    clock = AttemptClock.of(walked(1000.0)[1])
+    assert clock.moment(28.0) == pytest.approx(140.0)
+    assert clock.moment(28.0 + 1e-6) == pytest.approx(146.5)
+
+
+@pytest.mark.parametrize("end", ["end", "abort"])
+def test_the_clock_of_a_record_stops_however_the_attempt_was_over(tmp_path: Path, end: str):
+    bench = Bench(tmp_path)
+    bench.trainer.begin()
+    bench.run(0.5, -0.02)
+    bench.run(2.0, 0.03)
+    result = getattr(bench.trainer, end)()
+    bench.trainer.close()
+    clock = AttemptClock.of(read_recording(result.record).events)
+    assert clock.at(1e6) == pytest.approx(result.duration, abs=1e-6)
 
 
 def test_of_nothing_it_shows_nothing():

@@ -16,7 +16,7 @@ from app.scoring.conditions import Conditions, DeviceKind
 from app.session.errors import SessionError
 from app.session.index import Index, Indexed
 from app.session.people import NOTHING_SAID, People, Person, Remarks
-from app.session.people_bands import EACH, attempts_of, fit
+from app.session.people_bands import EACH, GroupAttempts, attempts_of, fit
 from app.session.roster import RosterLine
 from app.session.summary import Summary
 
@@ -79,6 +79,40 @@ def test_whoever_practises_much_counts_as_often_as_anybody() -> None:
     taken = of(EXPERTS, busy + others)
     assert sorted(taken.values(METRIC), reverse=True)[:EACH] == [9.0] * EACH
     assert len(taken.values(METRIC)) == len(EXPERTS) * EACH
+
+
+def test_a_persons_newest_attempts_stand_for_him() -> None:
+    better = [attempt(number, EXPERTS[0].key, 20.0 - number) for number in range(12)]
+    taken = of(EXPERTS, better + [*by(EXPERTS[1:], 1.0, 1)])
+    assert sorted(taken.values(METRIC))[-EACH:] == [9.0, 10.0, 11.0, 12.0, 13.0]
+
+
+def test_people_without_an_attempt_are_not_counted_and_the_sign_of_a_value_is_left_out() -> None:
+    some = [attempt(number, person.key, -2.0) for number, person in enumerate(EXPERTS[:3])]
+    taken = of(EXPERTS, some)
+    assert (taken.people, taken.values(METRIC)) == (3, [2.0, 2.0, 2.0])
+
+
+def test_metrics_without_weight_or_of_which_more_is_better_have_no_bands() -> None:
+    limits = EXERCISE.tolerances[METRIC]
+    tolerances = {
+        METRIC: limits,
+        "more_is_better": limits.model_copy(
+            update={"expert": limits.pass_, "pass_": limits.expert}
+        ),
+        "weightless": limits.model_copy(update={"weight": 0.0}),
+        "alike": limits,
+    }
+    exercise = EXERCISE.model_copy(update={"tolerances": tolerances})
+
+    def of_all(value: float) -> GroupAttempts:
+        values = dict.fromkeys(tolerances, value) | {"alike": 1.0}
+        rows = [{"name": name, "value": each} for name, each in values.items()]
+        return GroupAttempts("g", 3, ({"rows": rows},) * 3)
+
+    result = fit(exercise, HandName.MOUSE, of_all(1.0), of_all(3.0))
+    assert set(result.bands.metrics) == {METRIC}
+    assert result.alike == ("alike",)
 
 
 @pytest.mark.parametrize(

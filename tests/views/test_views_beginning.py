@@ -4,9 +4,10 @@ import pytest
 
 pytest.importorskip("PySide6")
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLineEdit
+from PySide6.QtWidgets import QDialog, QLineEdit, QPushButton
 from window_rig import choose, press, state
 
 from app.core import state_vector as sv
@@ -82,6 +83,44 @@ def test_the_keys_of_the_briefing_work_wherever_the_focus_is_but_in_a_text(
     page.hide()
     QTest.keyClick(role, key)
     assert heard == [wanted] * 2
+
+
+def test_behind_an_open_dialog_the_briefing_has_no_keys(window, beginning):
+    choose(window, "first-insertion")
+    page, heard = beginning.page, []
+    page.begin_wanted.disconnect()
+    page.begin_wanted.connect(lambda: heard.append(1))
+    role = window.findChild(RoleSwitch).button
+
+    def enter():
+        kind, none = QEvent.Type.KeyPress, Qt.KeyboardModifier.NoModifier
+        QCoreApplication.sendEvent(role, QKeyEvent(kind, Qt.Key.Key_Return, none))
+
+    dialog = QDialog(window)
+    dialog.open()
+    enter()
+    assert heard == []
+    dialog.close()
+    enter()
+    assert heard == [1]
+    dialog.deleteLater()
+
+
+def test_the_briefing_takes_its_own_keys_alone_and_none_of_another_window(window, beginning):
+    choose(window, "first-insertion")
+    page, heard = beginning.page, []
+    page.look_wanted.disconnect()
+    page.look_wanted.connect(lambda: heard.append(1))
+    kind, none = QEvent.Type.KeyPress, Qt.KeyboardModifier.NoModifier
+    event = QKeyEvent(kind, Qt.Key.Key_Z, none)
+    QCoreApplication.sendEvent(window.findChild(RoleSwitch).button, event)
+    assert not event.isAccepted()
+    other = QPushButton()
+    other.show()
+    QTest.keyClick(other, Qt.Key.Key_L)
+    assert heard == []
+    other.close()
+    other.deleteLater()
 
 
 @pytest.mark.long("journey")

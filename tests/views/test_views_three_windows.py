@@ -11,6 +11,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractButton,
     QComboBox,
+    QDialog,
     QLabel,
     QListWidget,
     QMenu,
@@ -417,6 +418,16 @@ def test_a_dialog_of_the_role_before_closes_with_it_and_a_page_of_help_stays(win
     assert checks.daily.isVisible()
 
 
+def test_a_dialog_that_waits_for_an_answer_stays_when_the_role_changes(window):
+    window.roles.choose(Role.TECHNICIAN)
+    dialog = QDialog(window)
+    dialog.open()
+    window.roles.choose(Role.STUDENT)
+    assert dialog.isVisible()
+    dialog.close()
+    dialog.deleteLater()
+
+
 def test_a_page_of_the_role_before_is_left_with_it(window):
     window.roles.choose(Role.TECHNICIAN)
     accuracy = window.feature(AccuracyFeature)
@@ -428,7 +439,8 @@ def test_a_page_of_the_role_before_is_left_with_it(window):
     assert window.pages.currentWidget() is not accuracy.page
 
 
-def test_a_message_that_an_attempt_runs_goes_with_the_attempt(window, monkeypatch):
+@pytest.mark.parametrize("end", ["finished", "gone"])
+def test_a_message_that_an_attempt_runs_goes_with_the_attempt(window, monkeypatch, end):
     window.roles.choose(Role.TECHNICIAN)
     controller = window.conductor.controller
     monkeypatch.setattr(type(controller), "is_running", True)
@@ -436,7 +448,10 @@ def test_a_message_that_an_attempt_runs_goes_with_the_attempt(window, monkeypatc
     assert "end it before the role is changed" in window.message_bar.text
     assert not window.message_bar.isHidden()
     monkeypatch.setattr(type(controller), "is_running", False)
-    window.runs.gone.emit()
+    if end == "finished":
+        controller.finished.emit(None)
+    else:
+        window.runs.gone.emit()
     assert window.message_bar.isHidden()
 
 

@@ -146,6 +146,15 @@ def test_time_waits_for_what_a_person_is_shown_in_an_attempt_and_for_no_script(d
     assert len(desk.trainer.told("lead")) == 3
 
 
+def test_time_waits_for_nobody_where_an_expert_only_shows_the_exercise(desk):
+    trainer = FakeTrainer()
+    trainer.now = snapshot(trainer.placed, state=State.ALIGNING)
+    desk.controller.attach(run(trainer, demonstrates=True))
+    desk.controller._timer.stop()
+    look(desk, 3, 0.016)
+    assert trainer.told("lead") == []
+
+
 def test_a_slowed_world_is_spoken_of_and_no_longer_when_it_is_as_fast_as_the_wall(desk):
     shares = []
     desk.controller.slowed.connect(shares.append)
@@ -180,6 +189,17 @@ def test_the_share_does_not_flicker_and_is_never_nothing():
         now += 0.02
         shares.append(pace.note(now, time))
     assert shares[-1] == pytest.approx(0.1)
+
+
+def test_a_share_between_two_tenths_is_said_as_one_of_them_and_forgotten_with_the_attempt():
+    pace, now, time, shares = WorldPace(), 0.0, 0.0, []
+    for i in range(2000):
+        now += 0.02
+        time += 0.02 * (0.66 if i // 150 % 2 else 0.64)
+        shares.append(pace.note(now, time))
+    assert len(set(shares[100:])) == 1
+    pace.begin()
+    assert pace.note(now + 0.02, time + 0.002) == 1.0
 
 
 def test_the_rail_says_that_time_runs_slower_before_what_is_not_drawn(qt):

@@ -20,7 +20,14 @@ from app.scoring.met import Met
 from app.scoring.result import judge
 from app.scoring.risks import RiskMark
 from app.scoring.rows import ScoreRules
-from app.session.abort_reasons import BY_USER, abort_words, known_reason
+from app.session.abort_reasons import (
+    BY_USER,
+    OTHER_PATIENT,
+    TRAINER_CLOSED,
+    WINDOW_CLOSED,
+    abort_words,
+    known_reason,
+)
 from app.session.control_scan import TEACHING_ESTIMATE
 from app.session.course import Course, CourseItem, CourseStanding, why_not
 from app.session.next_exercise import Proposal, ProposalReason
@@ -168,6 +175,14 @@ def test_who_aborted_an_attempt_is_said_in_the_language_of_the_window(shipped):
     shown = verdict(review(score=judge(score().rows, ScoreRules(), void)))[2]
     assert "vom Benutzer" in shown
     assert "user" not in shown
+
+
+@pytest.mark.parametrize("reason", [BY_USER, OTHER_PATIENT, WINDOW_CLOSED, TRAINER_CLOSED])
+def test_each_reason_of_this_program_is_said_in_the_language_of_the_window(shipped, reason):
+    recorded = str.__str__(reason)  # a record holds the text, and no sentence
+    assert translated(recorded) == recorded
+    assert translated(known_reason(recorded)) == shipped[recorded] != recorded
+    assert translated(abort_words(f"aborted: {recorded}")) == f"abgebrochen: {shipped[recorded]}"
 
 
 def test_a_message_of_the_attempt_is_said_in_the_language_of_the_window(shipped):

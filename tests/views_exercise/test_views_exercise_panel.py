@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QImage, QKeyEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLineEdit
+from PySide6.QtWidgets import QLineEdit, QWidget
 from views_exercise_fakes import snapshot, statistics
 
 from app.core import state_vector as sv
@@ -21,7 +21,7 @@ from app.tracking.fix import FixStatus
 from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.felt import guidance_limit
 from app.views.exercise.live import LiveFigures
-from app.views.exercise.panel import HOLD_MS, ExercisePanel
+from app.views.exercise.panel import HOLD_MS, ExercisePanel, HoldKey
 from app.views.exercise.readings import figures, problem, status_items, tracker_figures
 from app.views.exercise.readouts import ForceBar
 from app.views.exercise.status import StatusStrip
@@ -161,6 +161,59 @@ def test_escape_is_heard_where_another_part_of_the_window_keeps_its_keys_to_itse
         QCoreApplication.sendEvent(panel.windowHandle(), event)
     assert aborted == [1]
     deaf.deleteLater()
+
+
+def escape(widget, *events):
+    """Send presses and releases of Esc at times [ms] of the events' own clock."""
+    kinds = {"down": QEvent.Type.KeyPress, "up": QEvent.Type.KeyRelease}
+    for kind, time, again in events:
+        event = QKeyEvent(
+            kinds[kind], Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier, "", again, 1
+        )
+        event.setTimestamp(time)
+        QCoreApplication.sendEvent(widget, event)
+
+
+def test_a_window_that_is_watched_before_it_is_shown_hears_its_keys_first_as_well(qt):
+    window, heard = QWidget(), []
+    key = HoldKey(Qt.Key.Key_Escape, window)
+    key.held.connect(lambda: heard.append(1))
+    key.watch(window)
+    assert window.windowHandle() is None
+    window.show()
+    # a widget of it that takes all keys is passed by: only the display's window hears of this
+    window.removeEventFilter(key)
+    escape(window.windowHandle(), ("down", 1000, False), ("up", 1000 + HOLD_MS, False))
+    assert heard == [1]
+    window.close()
+    window.deleteLater()
+
+
+def test_a_key_that_repeats_itself_is_held_and_one_that_the_window_lost_is_not(panel):
+    aborted = []
+    panel.buttons.abort_requested.connect(lambda: aborted.append(1))
+    panel.buttons.watch(panel)
+    panel.show_figures(live(State.INSERTING))
+    repeats = [(kind, 1400, True) for kind in ("up", "down")]
+    escape(panel, ("down", 1000, False), *repeats, ("up", 1000 + HOLD_MS, False))
+    assert aborted == [1]
+    escape(panel, ("down", 5000, False))
+    QCoreApplication.sendEvent(panel, QEvent(QEvent.Type.WindowDeactivate))
+    escape(panel, ("up", 5000 + HOLD_MS, False))
+    assert aborted == [1]
+
+
+def test_keys_go_on_to_whoever_has_the_focus(panel):
+    panel.buttons.watch(panel)
+    panel.show_figures(live(State.INSERTING))
+    field = QLineEdit(panel)
+    field.show()
+    panel.activateWindow()
+    assert QTest.qWaitForWindowActive(panel)
+    field.setFocus()
+    QTest.keyClick(panel.windowHandle(), Qt.Key.Key_A)
+    assert field.text() == "a"
+    field.deleteLater()
 
 
 def test_a_pseudonym_cannot_hold_what_a_file_name_must_not(panel):
