@@ -231,28 +231,26 @@ def test_a_window_that_is_gone_for_good_lets_time_go_on_and_the_force_off(
 
 
 def test_a_person_s_world_leaves_pictures_out_before_it_gets_slower(tmp_path: Path) -> None:
-    """At 30 times the wall's pace a pair of pictures takes far longer than its share."""
-    speeds, apart = [], []
+    """At 50 times the wall's pace a pair of pictures takes far longer than its share."""
+    apart = []
     for led in (True, False):
-        rig = rig_of("first-insertion", slow(30.0), tmp_path, skill=None, led=led)
+        rig = rig_of("first-insertion", slow(50.0), tmp_path, skill=None, led=led)
         rig.trainer.open()
         try:
             wait(lambda rig=rig: rig.trainer.snapshot().pose.measured)
-            began, wall = rig.trainer.time, time.monotonic()
             times: list[float] = []
-            while time.monotonic() < wall + 4.0:
+            while len(times) < 20:
                 stamped = rig.tracker.latest.read()
                 if stamped is not None and (not times or stamped.value.time != times[-1]):
                     times.append(stamped.value.time)
                 rig.trainer.heartbeat()
                 time.sleep(0.001)
-            speeds.append((rig.trainer.time - began) / (time.monotonic() - wall))
-            apart.append(float(np.diff(times).max()))
+            apart.append(float(np.diff(times).max()) * rig.tracker.rig.rate_hz)
         finally:
             rig.close()
-    assert speeds[1] > 1.25 * speeds[0]
-    assert apart[0] < 1.5 / 30.0
-    assert apart[1] < 0.2  # the depth is never lost for it
+    assert apart[0] < 1.5  # a program's world waits for every picture
+    assert apart[1] > 1.5
+    assert apart[1] < 6.0  # the depth is never lost for it
 
 
 def test_a_person_does_not_wait_for_the_first_picture_of_a_start() -> None:
