@@ -339,6 +339,7 @@ def test_a_wrong_password_a_missing_database_and_a_reader_are_told(postgres: Pos
     with engine.begin() as connection:
         connection.exec_driver_sql("DROP ROLE IF EXISTS reader")
         connection.exec_driver_sql("CREATE ROLE reader LOGIN PASSWORD 'reading'")
+        connection.exec_driver_sql("GRANT USAGE ON SCHEMA public TO reader")
         connection.exec_driver_sql("GRANT SELECT ON ALL TABLES IN SCHEMA public TO reader")
     engine.dispose()
     reader = postgres.url().replace(f"acus:{PASSWORD}", "reader:reading")

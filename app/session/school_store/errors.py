@@ -20,7 +20,7 @@ class UnreachableStoreError(StoreError):
 
 
 _FULL: Final = ("53100", "disk is full", "No space left")
-_DENIED: Final = ("42501", "25006", "readonly database", "permission denied")
+_DENIED: Final = ("42501", "3F000", "25006", "readonly database", "permission denied")
 _LOGIN: Final = ("28P01", "28000", "password authentication failed", "no password supplied")
 _NO_DATABASE: Final = ("3D000",)
 _NOWHERE: Final = re.compile('database ".*" does not exist')
