@@ -5581,7 +5581,7 @@
         </message>
         <message>
             <source>beyond the attempts that the course allows</source>
-            <translation type="unfinished" >über die Versuche hinaus, die der Kurs erlaubt</translation>
+            <translation type="unfinished">über die Versuche hinaus, die der Kurs erlaubt</translation>
         </message>
         <message>
             <source>not sealed by this station</source>
@@ -6145,7 +6145,7 @@
         </message>
         <message>
             <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
-            <translation type="unfinished" >über die {attempts} Versuche hinaus, die der Kurs {course} an allen Stationen zusammen erlaubt</translation>
+            <translation type="unfinished">über die {attempts} Versuche hinaus, die der Kurs {course} an allen Stationen zusammen erlaubt</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -12011,11 +12011,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>revoked</source>
-            <translation type="unfinished" >widerrufen</translation>
+            <translation type="unfinished">widerrufen</translation>
         </message>
         <message>
             <source> (station {name})</source>
-            <translation type="unfinished" > (Station {name})</translation>
+            <translation type="unfinished"> (Station {name})</translation>
         </message>
         <message>
             <source>Drill: {title}</source>
@@ -15038,11 +15038,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Stations</source>
-            <translation type="unfinished" >Stationen</translation>
+            <translation type="unfinished">Stationen</translation>
         </message>
         <message>
             <source>Bring the results of several stations together</source>
-            <translation type="unfinished" >Die Ergebnisse mehrerer Stationen zusammenführen</translation>
+            <translation type="unfinished">Die Ergebnisse mehrerer Stationen zusammenführen</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -18717,6 +18717,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch wartet darauf, gesendet zu werden.</numerusform>
+                <numerusform>{n} Versuche warten darauf, gesendet zu werden.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts wait to be sent: `acus store sync`</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch wartet darauf, gesendet zu werden: `acus store sync`</numerusform>
+                <numerusform>{n} Versuche warten darauf, gesendet zu werden: `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch {whose}</numerusform>
@@ -18773,6 +18787,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} ausgelassen</numerusform>
+                <numerusform>{n} ausgelassen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} memberships {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} Mitgliedschaft {whose}</numerusform>
@@ -18784,6 +18805,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Name {whose}</numerusform>
                 <numerusform>{n} Namen {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} packets</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paket</numerusform>
+                <numerusform>{n} Pakete</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18822,6 +18850,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} stations wait to be let in: Stations, Exchange now</source>
+            <translation type="unfinished">
+                <numerusform>{n} Station wartet auf Einlass: Stationen, Jetzt austauschen</numerusform>
+                <numerusform>{n} Stationen warten auf Einlass: Stationen, Jetzt austauschen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} students</source>
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer</numerusform>
@@ -18833,6 +18868,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} things sent</source>
+            <translation type="unfinished">
+                <numerusform>{n} Sache gesendet</numerusform>
+                <numerusform>{n} Sachen gesendet</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19308,11 +19350,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>its signature is not that of the station {name}</source>
-            <translation type="unfinished" >die Signatur ist nicht die der Station {name}</translation>
+            <translation type="unfinished">die Signatur ist nicht die der Station {name}</translation>
         </message>
         <message>
             <source>the instructor has revoked the station that signed it</source>
-            <translation type="unfinished" >der Kursleiter hat die Station widerrufen, die signiert hat</translation>
+            <translation type="unfinished">der Kursleiter hat die Station widerrufen, die signiert hat</translation>
         </message>
         <message>
             <source>the signature beside it is that of another attempt</source>
@@ -19648,183 +19690,343 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
-            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?widerrufen|}</translation>
+            <translation type="unfinished">{name:20} {fingerprint} {revoked:?widerrufen|}</translation>
         </message>
         <message>
             <source>no other station is known here</source>
-            <translation type="unfinished" >keine andere Station ist hier bekannt</translation>
+            <translation type="unfinished">keine andere Station ist hier bekannt</translation>
         </message>
         <message>
             <source>this station is {name}: {fingerprint}</source>
-            <translation type="unfinished" >diese Station heißt {name}: {fingerprint}</translation>
+            <translation type="unfinished">diese Station heißt {name}: {fingerprint}</translation>
         </message>
         <message>
             <source>{name} is revoked: what it signed counts here only once admitted</source>
-            <translation type="unfinished" >{name} ist widerrufen: Was sie signiert hat, zählt hier nur, wenn es anerkannt ist</translation>
+            <translation type="unfinished">{name} ist widerrufen: Was sie signiert hat, zählt hier nur, wenn es anerkannt ist</translation>
         </message>
         <message>
             <source>Print it and lock it away: it opens the station's key in a backup.</source>
-            <translation type="unfinished" >Drucken Sie ihn aus und schließen Sie ihn weg: Er öffnet den Schlüssel der Station in einer Sicherung.</translation>
+            <translation type="unfinished">Drucken Sie ihn aus und schließen Sie ihn weg: Er öffnet den Schlüssel der Station in einer Sicherung.</translation>
         </message>
         <message>
             <source>this station has a new key: {fingerprint}</source>
-            <translation type="unfinished" >diese Station hat einen neuen Schlüssel: {fingerprint}</translation>
+            <translation type="unfinished">diese Station hat einen neuen Schlüssel: {fingerprint}</translation>
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
-            <translation type="unfinished" >{attempts:#1 Versuch|# Versuche} und {remarks:#1 Bemerkung|# Bemerkungen} in {files} geschrieben</translation>
+            <translation type="unfinished">{attempts:#1 Versuch|# Versuche} und {remarks:#1 Bemerkung|# Bemerkungen} in {files} geschrieben</translation>
         </message>
         <message>
             <source>✖ {} is left out: it was altered after it was signed</source>
-            <translation type="unfinished" >✖ {} ist ausgelassen: nach dem Signieren verändert</translation>
+            <translation type="unfinished">✖ {} ist ausgelassen: nach dem Signieren verändert</translation>
         </message>
         <message>
             <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
-            <translation type="unfinished" >{people:#1 Teilnehmer|# Teilnehmer} und {courses:#1 Kurs|# Kurse} in {files} geschrieben</translation>
+            <translation type="unfinished">{people:#1 Teilnehmer|# Teilnehmer} und {courses:#1 Kurs|# Kurse} in {files} geschrieben</translation>
         </message>
         <message>
             <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
-            <translation type="unfinished" >{station}: {attempts:#1 Versuch|# Versuche} hinzugefügt, {present} schon hier, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Teilnehmer|# Teilnehmer}, {courses:#1 Kurs|# Kurse}, {erased} gelöscht, {left_out} als gelöscht ausgelassen</translation>
+            <translation type="unfinished">{station}: {attempts:#1 Versuch|# Versuche} hinzugefügt, {present} schon hier, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Teilnehmer|# Teilnehmer}, {courses:#1 Kurs|# Kurse}, {erased} gelöscht, {left_out} als gelöscht ausgelassen</translation>
         </message>
         <message>
             <source>left out: {line}</source>
-            <translation type="unfinished" >ausgelassen: {line}</translation>
+            <translation type="unfinished">ausgelassen: {line}</translation>
         </message>
         <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
+            <translation type="unfinished">{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
         </message>
         <message>
             <source>cannot take in {source}: {reason} ({place})</source>
-            <translation type="unfinished" >{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
+            <translation type="unfinished">{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
         </message>
         <message>
             <source>the attempt {name} is another record here</source>
-            <translation type="unfinished" >der Versuch {name} ist hier eine andere Aufzeichnung</translation>
+            <translation type="unfinished">der Versuch {name} ist hier eine andere Aufzeichnung</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+            <translation type="unfinished">{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
         </message>
         <message>
             <source>{name} is another file here</source>
-            <translation type="unfinished" >{name} ist hier eine andere Datei</translation>
+            <translation type="unfinished">{name} ist hier eine andere Datei</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+            <translation type="unfinished">{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
         </message>
         <message>
             <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished" >{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
+            <translation type="unfinished">{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} ist bei {name} beschädigt: Holen Sie sie neu von ihrer Station</translation>
+            <translation type="unfinished">{source} ist bei {name} beschädigt: Holen Sie sie neu von ihrer Station</translation>
         </message>
         <message>
             <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
-            <translation type="unfinished" >{source} enthält weder Ergebnisse noch den Kurs einer Station: Schreiben Sie die Datei dort neu mit `acus store results` oder `acus store station`</translation>
+            <translation type="unfinished">{source} enthält weder Ergebnisse noch den Kurs einer Station: Schreiben Sie die Datei dort neu mit `acus store results` oder `acus store station`</translation>
         </message>
         <message>
             <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
-            <translation type="unfinished" >{source} ist eine andere Datei von Acus ({kind!r:.40}): Geben Sie eine an, die `acus store results` oder `acus store station` geschrieben hat</translation>
+            <translation type="unfinished">{source} ist eine andere Datei von Acus ({kind!r:.40}): Geben Sie eine an, die `acus store results` oder `acus store station` geschrieben hat</translation>
         </message>
         <message>
             <source>{source} was written by a newer version of Acus: use that version here too</source>
-            <translation type="unfinished" >{source} stammt von einer neueren Version von Acus: Benutzen Sie diese Version auch hier</translation>
+            <translation type="unfinished">{source} stammt von einer neueren Version von Acus: Benutzen Sie diese Version auch hier</translation>
         </message>
         <message>
             <source>{source} was altered after its station signed it: fetch it anew from the station</source>
-            <translation type="unfinished" >{source} wurde verändert, nachdem die Station signiert hatte: Holen Sie die Datei neu von der Station</translation>
+            <translation type="unfinished">{source} wurde verändert, nachdem die Station signiert hatte: Holen Sie die Datei neu von der Station</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
-            <translation type="unfinished" >{source} kommt von der Station {name}, die der Kursleiter widerrufen hat: Nichts davon wird aufgenommen</translation>
+            <translation type="unfinished">{source} kommt von der Station {name}, die der Kursleiter widerrufen hat: Nichts davon wird aufgenommen</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
-            <translation type="unfinished" >{source} kommt von der Station {name}, die hier mit diesem Schlüssel nicht bekannt ist: Vergleichen Sie {fingerprint} dort mit `acus store stations` und nehmen Sie die Datei dann mit --trust auf</translation>
+            <translation type="unfinished">{source} kommt von der Station {name}, die hier mit diesem Schlüssel nicht bekannt ist: Vergleichen Sie {fingerprint} dort mit `acus store stations` und nehmen Sie die Datei dann mit --trust auf</translation>
         </message>
         <message>
             <source>no station and public key</source>
-            <translation type="unfinished" >keine Station mit öffentlichem Schlüssel</translation>
+            <translation type="unfinished">keine Station mit öffentlichem Schlüssel</translation>
         </message>
         <message>
             <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
-            <translation type="unfinished" >{name!r} kann nicht der Name einer Station sein: nur Buchstaben, Ziffern, Leerzeichen und . _ @ + -, höchstens 40, mit einem Buchstaben oder einer Ziffer am Anfang</translation>
+            <translation type="unfinished">{name!r} kann nicht der Name einer Station sein: nur Buchstaben, Ziffern, Leerzeichen und . _ @ + -, höchstens 40, mit einem Buchstaben oder einer Ziffer am Anfang</translation>
         </message>
         <message>
             <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
-            <translation type="unfinished" >{station!r} ist keine bekannte Station oder mehrere: Geben Sie Namen oder Kennung einer einzigen an; bekannt: {names}</translation>
+            <translation type="unfinished">{station!r} ist keine bekannte Station oder mehrere: Geben Sie Namen oder Kennung einer einzigen an; bekannt: {names}</translation>
         </message>
         <message>
             <source>Bring results of stations together…</source>
-            <translation type="unfinished" >Ergebnisse von Stationen zusammenführen…</translation>
+            <translation type="unfinished">Ergebnisse von Stationen zusammenführen…</translation>
         </message>
         <message>
             <source>Write this station's results…</source>
-            <translation type="unfinished" >Ergebnisse dieser Station schreiben…</translation>
+            <translation type="unfinished">Ergebnisse dieser Station schreiben…</translation>
         </message>
         <message>
             <source>Write the course for a station…</source>
-            <translation type="unfinished" >Kurs für eine Station schreiben…</translation>
+            <translation type="unfinished">Kurs für eine Station schreiben…</translation>
         </message>
         <message>
             <source>Results of stations</source>
-            <translation type="unfinished" >Ergebnisse von Stationen</translation>
+            <translation type="unfinished">Ergebnisse von Stationen</translation>
         </message>
         <message>
             <source>Bringing stations together</source>
-            <translation type="unfinished" >Stationen werden zusammengeführt</translation>
+            <translation type="unfinished">Stationen werden zusammengeführt</translation>
+        </message>
+        <message>
+            <source>The database that the stations of a school share: postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite on a share. Empty: none.</source>
+            <translation type="unfinished">Die Datenbank, die sich die Stationen einer Schule teilen: postgresql+psycopg://Benutzer:Passwort@Rechner/Name oder sqlite:////Ordner/Datei.sqlite auf einer Freigabe. Leer: keine.</translation>
+        </message>
+        <message>
+            <source>Students and courses of this station go there</source>
+            <translation type="unfinished">Studierende und Kurse dieser Station gehen dorthin</translation>
+        </message>
+        <message>
+            <source>With their PINs, as hashes</source>
+            <translation type="unfinished">Mit ihren PINs, als Hashwerte</translation>
+        </message>
+        <message>
+            <source>The school's store</source>
+            <translation type="unfinished">Der Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>URL</source>
+            <translation type="unfinished">URL</translation>
+        </message>
+        <message>
+            <source>Exchanging with the school's store</source>
+            <translation type="unfinished">Austausch mit dem Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>Connecting to the school's store</source>
+            <translation type="unfinished">Verbinden mit dem Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>School's store: up to date at {time}</source>
+            <translation type="unfinished">Speicher der Schule: auf dem Stand von {time}</translation>
+        </message>
+        <message>
+            <source>From other stations</source>
+            <translation type="unfinished">Von anderen Stationen</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
-            <translation type="unfinished" >Diese Stationen zulassen?</translation>
+            <translation type="unfinished">Diese Stationen zulassen?</translation>
         </message>
         <message>
             <source>Let them in</source>
-            <translation type="unfinished" >Zulassen</translation>
+            <translation type="unfinished">Zulassen</translation>
+        </message>
+        <message>
+            <source>Exchange with the school's store now</source>
+            <translation type="unfinished">Jetzt mit dem Speicher der Schule austauschen</translation>
+        </message>
+        <message>
+            <source>Connect to the school's store…</source>
+            <translation type="unfinished">Mit dem Speicher der Schule verbinden…</translation>
         </message>
         <message>
             <source>Write this station's results</source>
-            <translation type="unfinished" >Ergebnisse dieser Station schreiben</translation>
+            <translation type="unfinished">Ergebnisse dieser Station schreiben</translation>
         </message>
         <message>
             <source>left out, altered: {names}</source>
-            <translation type="unfinished" >ausgelassen, weil verändert: {names}</translation>
+            <translation type="unfinished">ausgelassen, weil verändert: {names}</translation>
         </message>
         <message>
             <source>Write the course for a station</source>
-            <translation type="unfinished" >Kurs für eine Station schreiben</translation>
+            <translation type="unfinished">Kurs für eine Station schreiben</translation>
         </message>
         <message>
             <source>Writing the course for a station</source>
-            <translation type="unfinished" >Kurs für eine Station wird geschrieben</translation>
+            <translation type="unfinished">Kurs für eine Station wird geschrieben</translation>
         </message>
         <message>
             <source>remarks: {n}</source>
-            <translation type="unfinished" >Bemerkungen: {n}</translation>
+            <translation type="unfinished">Bemerkungen: {n}</translation>
         </message>
         <message>
             <source>new students: {n}</source>
-            <translation type="unfinished" >neue Teilnehmer: {n}</translation>
+            <translation type="unfinished">neue Teilnehmer: {n}</translation>
         </message>
         <message>
             <source>new courses: {n}</source>
-            <translation type="unfinished" >neue Kurse: {n}</translation>
+            <translation type="unfinished">neue Kurse: {n}</translation>
         </message>
         <message>
             <source>persons erased: {n}</source>
-            <translation type="unfinished" >gelöschte Personen: {n}</translation>
+            <translation type="unfinished">gelöschte Personen: {n}</translation>
         </message>
         <message>
             <source>left out as erased: {n}</source>
-            <translation type="unfinished" >als gelöscht ausgelassen: {n}</translation>
+            <translation type="unfinished">als gelöscht ausgelassen: {n}</translation>
         </message>
         <message>
             <source>Files of stations (*.acus)</source>
-            <translation type="unfinished" >Dateien von Stationen (*.acus)</translation>
+            <translation type="unfinished">Dateien von Stationen (*.acus)</translation>
+        </message>
+        <message>
+            <source>{store:?the school's store is {store}|this station shares no store}</source>
+            <translation type="unfinished">{store:?der Speicher der Schule ist {store}|diese Station teilt keinen Speicher}</translation>
+        </message>
+        <message>
+            <source>{gives_course:?people and courses of this station go there|}</source>
+            <translation type="unfinished">{gives_course:?Personen und Kurse dieser Station gehen dorthin|}</translation>
+        </message>
+        <message>
+            <source>this station shares no store: `acus store connect URL` connects it</source>
+            <translation type="unfinished">diese Station teilt keinen Speicher: `acus store connect URL` verbindet sie</translation>
+        </message>
+        <message>
+            <source>{sent:#1 packet|# packets} sent; {attempts:#1 attempt|# attempts}, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses} came; {erased} erased</source>
+            <translation type="unfinished">{sent:#1 Paket|# Pakete} gesendet; {attempts:#1 Versuch|# Versuche}, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Person|# Personen}, {courses:#1 Kurs|# Kurse} gekommen; {erased} gelöscht</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✖ left out: {}</source>
+            <translation type="unfinished">✖ ausgelassen: {}</translation>
+        </message>
+        <message>
+            <source>of erased people taken out of the store</source>
+            <translation type="unfinished">gelöschter Personen aus dem Speicher genommen</translation>
+        </message>
+        <message>
+            <source>the school's store {name} has no room left: its administrator makes some; nothing is lost, it is sent once there is</source>
+            <translation type="unfinished">der Speicher der Schule {name} ist voll: seine Verwaltung schafft Platz; nichts ist verloren, es wird dann gesendet</translation>
+        </message>
+        <message>
+            <source>the school's store {name} may only be read by this user: its administrator gives the right to write; nothing is lost, it is sent then</source>
+            <translation type="unfinished">der Speicher der Schule {name} kann von diesem Benutzer nur gelesen werden: seine Verwaltung gibt das Recht zu schreiben; nichts ist verloren, es wird dann gesendet</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not know this user and password: give those of its administrator in the URL</source>
+            <translation type="unfinished">der Speicher der Schule {name} kennt diesen Benutzer und dieses Passwort nicht: die der Verwaltung in der URL angeben</translation>
+        </message>
+        <message>
+            <source>there is no such database at {name}: its administrator makes it (`createdb`)</source>
+            <translation type="unfinished">bei {name} gibt es diese Datenbank nicht: seine Verwaltung legt sie an (`createdb`)</translation>
+        </message>
+        <message>
+            <source>the school's store {name} takes longer than {seconds:g} s: this station goes on and tries again</source>
+            <translation type="unfinished">der Speicher der Schule {name} braucht länger als {seconds:g} s: diese Station macht weiter und versucht es wieder</translation>
+        </message>
+        <message>
+            <source>{name} is no school's store, or a damaged one: give the URL of an empty database, or bring it back from its backup</source>
+            <translation type="unfinished">{name} ist kein Speicher einer Schule oder ein beschädigter: die URL einer leeren Datenbank angeben oder ihn aus seiner Sicherung zurückholen</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">der Speicher der Schule {name} antwortet nicht: diese Station macht weiter und versucht es wieder ({reason})</translation>
+        </message>
+        <message>
+            <source>{url} is no place for objects: {reason}</source>
+            <translation type="unfinished">{url} ist kein Ort für Objekte: {reason}</translation>
+        </message>
+        <message>
+            <source>the object {digest} of the school's store is missing or damaged: its administrator brings it back from a backup; the rest was taken</source>
+            <translation type="unfinished">das Objekt {digest} des Speichers der Schule fehlt oder ist beschädigt: seine Verwaltung holt es aus einer Sicherung zurück; der Rest wurde übernommen</translation>
+        </message>
+        <message>
+            <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">die Objekte des Speichers der Schule sind nicht zu benutzen: diese Station macht weiter und versucht es wieder ({reason})</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{path} sagt nicht, wo der Speicher der Schule ist: diese Station mit `acus store connect URL` neu verbinden</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {reason}</source>
+            <translation type="unfinished">{path} ist nicht zu schreiben: {reason}</translation>
+        </message>
+        <message>
+            <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
+            <translation type="unfinished">die Dateien des Speichers der Schule {name} liegen anderswo: --objects angeben wie an den anderen Stationen</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder} for the school's store: make it, or look whether the share is there</source>
+            <translation type="unfinished">es gibt keinen Ordner {folder} für den Speicher der Schule: ihn anlegen oder nachsehen, ob die Freigabe da ist</translation>
+        </message>
+        <message>
+            <source>the school's store {name} lies where files cannot be locked, so that two stations would break it: put it into PostgreSQL, or on a share with locks</source>
+            <translation type="unfinished">der Speicher der Schule {name} liegt, wo Dateien nicht gesperrt werden können, so dass zwei Stationen ihn zerstören würden: in PostgreSQL legen oder auf eine Freigabe mit Sperren</translation>
+        </message>
+        <message>
+            <source>{url!r} is no URL of a school's store: give postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite</source>
+            <translation type="unfinished">{url!r} ist keine URL eines Speichers einer Schule: postgresql+psycopg://Benutzer:Passwort@Rechner/Name angeben oder sqlite:////Ordner/Datei.sqlite</translation>
+        </message>
+        <message>
+            <source>sending</source>
+            <translation type="unfinished">wird gesendet</translation>
+        </message>
+        <message>
+            <source>{name} is not sent: it was altered</source>
+            <translation type="unfinished">{name} wird nicht gesendet: der Versuch wurde verändert</translation>
+        </message>
+        <message>
+            <source>taking in</source>
+            <translation type="unfinished">wird übernommen</translation>
+        </message>
+        <message>
+            <source>packet {place} of the school's store</source>
+            <translation type="unfinished">Paket {place} des Speichers der Schule</translation>
+        </message>
+        <message>
+            <source>the school's store {name} was made by a newer version of Acus (step {here}, this one knows {known}): use that version here too; this station goes on by itself</source>
+            <translation type="unfinished">der Speicher der Schule {name} stammt von einer neueren Version von Acus (Schritt {here}, diese kennt {known}): diese Version auch hier benutzen; die Station macht allein weiter</translation>
+        </message>
+        <message>
+            <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
+            <translation type="unfinished">{name} enthält Tabellen eines anderen Programms ({table}): dem Speicher der Schule eine eigene Datenbank geben</translation>
         </message>
     </context>
 </TS>

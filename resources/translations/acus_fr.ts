@@ -5581,7 +5581,7 @@
         </message>
         <message>
             <source>beyond the attempts that the course allows</source>
-            <translation type="unfinished" >au-delà des essais que le cours autorise</translation>
+            <translation type="unfinished">au-delà des essais que le cours autorise</translation>
         </message>
         <message>
             <source>not sealed by this station</source>
@@ -6145,7 +6145,7 @@
         </message>
         <message>
             <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
-            <translation type="unfinished" >au-delà des {attempts} essais que le cours {course} autorise sur tous les postes réunis</translation>
+            <translation type="unfinished">au-delà des {attempts} essais que le cours {course} autorise sur tous les postes réunis</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -12011,11 +12011,11 @@ Lettres : directions du patient
         </message>
         <message>
             <source>revoked</source>
-            <translation type="unfinished" >révoqué</translation>
+            <translation type="unfinished">révoqué</translation>
         </message>
         <message>
             <source> (station {name})</source>
-            <translation type="unfinished" > (poste {name})</translation>
+            <translation type="unfinished"> (poste {name})</translation>
         </message>
         <message>
             <source>Drill: {title}</source>
@@ -15038,11 +15038,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Stations</source>
-            <translation type="unfinished" >Postes</translation>
+            <translation type="unfinished">Postes</translation>
         </message>
         <message>
             <source>Bring the results of several stations together</source>
-            <translation type="unfinished" >Réunir les résultats de plusieurs postes</translation>
+            <translation type="unfinished">Réunir les résultats de plusieurs postes</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -18717,6 +18717,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative attend d’être envoyée.</numerusform>
+                <numerusform>{n} tentatives attendent d’être envoyées.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts wait to be sent: `acus store sync`</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative attend d’être envoyée : `acus store sync`</numerusform>
+                <numerusform>{n} tentatives attendent d’être envoyées : `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} essai {whose}</numerusform>
@@ -18773,6 +18787,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} écarté</numerusform>
+                <numerusform>{n} écartés</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} memberships {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} appartenance {whose}</numerusform>
@@ -18784,6 +18805,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} nom {whose}</numerusform>
                 <numerusform>{n} noms {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} packets</source>
+            <translation type="unfinished">
+                <numerusform>{n} paquet</numerusform>
+                <numerusform>{n} paquets</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18822,6 +18850,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} stations wait to be let in: Stations, Exchange now</source>
+            <translation type="unfinished">
+                <numerusform>{n} poste attend d’être admis : Postes, Échanger maintenant</numerusform>
+                <numerusform>{n} postes attendent d’être admis : Postes, Échanger maintenant</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} students</source>
             <translation type="unfinished">
                 <numerusform>{n} étudiant</numerusform>
@@ -18833,6 +18868,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} étudiant {whose}</numerusform>
                 <numerusform>{n} étudiants {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} things sent</source>
+            <translation type="unfinished">
+                <numerusform>{n} élément envoyé</numerusform>
+                <numerusform>{n} éléments envoyés</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19308,11 +19350,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>its signature is not that of the station {name}</source>
-            <translation type="unfinished" >la signature n’est pas celle du poste {name}</translation>
+            <translation type="unfinished">la signature n’est pas celle du poste {name}</translation>
         </message>
         <message>
             <source>the instructor has revoked the station that signed it</source>
-            <translation type="unfinished" >le formateur a révoqué le poste qui l’a signé</translation>
+            <translation type="unfinished">le formateur a révoqué le poste qui l’a signé</translation>
         </message>
         <message>
             <source>the signature beside it is that of another attempt</source>
@@ -19648,183 +19690,343 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
-            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?révoqué|}</translation>
+            <translation type="unfinished">{name:20} {fingerprint} {revoked:?révoqué|}</translation>
         </message>
         <message>
             <source>no other station is known here</source>
-            <translation type="unfinished" >aucun autre poste n’est connu ici</translation>
+            <translation type="unfinished">aucun autre poste n’est connu ici</translation>
         </message>
         <message>
             <source>this station is {name}: {fingerprint}</source>
-            <translation type="unfinished" >ce poste est {name} : {fingerprint}</translation>
+            <translation type="unfinished">ce poste est {name} : {fingerprint}</translation>
         </message>
         <message>
             <source>{name} is revoked: what it signed counts here only once admitted</source>
-            <translation type="unfinished" >{name} est révoqué : ce qu’il a signé ne compte ici qu’une fois admis</translation>
+            <translation type="unfinished">{name} est révoqué : ce qu’il a signé ne compte ici qu’une fois admis</translation>
         </message>
         <message>
             <source>Print it and lock it away: it opens the station's key in a backup.</source>
-            <translation type="unfinished" >Imprimez-la et mettez-la sous clé : elle ouvre la clé du poste dans une sauvegarde.</translation>
+            <translation type="unfinished">Imprimez-la et mettez-la sous clé : elle ouvre la clé du poste dans une sauvegarde.</translation>
         </message>
         <message>
             <source>this station has a new key: {fingerprint}</source>
-            <translation type="unfinished" >ce poste a une nouvelle clé : {fingerprint}</translation>
+            <translation type="unfinished">ce poste a une nouvelle clé : {fingerprint}</translation>
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
-            <translation type="unfinished" >{attempts:#1 essai|# essais|0 essai} et {remarks:#1 remarque|# remarques|0 remarque} dans {files}</translation>
+            <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} et {remarks:#1 remarque|# remarques|0 remarque} dans {files}</translation>
         </message>
         <message>
             <source>✖ {} is left out: it was altered after it was signed</source>
-            <translation type="unfinished" >✖ {} est omis : altéré après la signature</translation>
+            <translation type="unfinished">✖ {} est omis : altéré après la signature</translation>
         </message>
         <message>
             <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
-            <translation type="unfinished" >{people:#1 étudiant|# étudiants|0 étudiant} et {courses:#1 cours|# cours|0 cours} dans {files}</translation>
+            <translation type="unfinished">{people:#1 étudiant|# étudiants|0 étudiant} et {courses:#1 cours|# cours|0 cours} dans {files}</translation>
         </message>
         <message>
             <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
-            <translation type="unfinished" >{station} : {attempts:#1 essai ajouté|# essais ajoutés|0 essai ajouté}, {present} déjà ici, {remarks:#1 remarque|# remarques|0 remarque}, {people:#1 étudiant|# étudiants|0 étudiant}, {courses:#1 cours|# cours|0 cours}, {erased} effacés, {left_out} omis car effacés</translation>
+            <translation type="unfinished">{station} : {attempts:#1 essai ajouté|# essais ajoutés|0 essai ajouté}, {present} déjà ici, {remarks:#1 remarque|# remarques|0 remarque}, {people:#1 étudiant|# étudiants|0 étudiant}, {courses:#1 cours|# cours|0 cours}, {erased} effacés, {left_out} omis car effacés</translation>
         </message>
         <message>
             <source>left out: {line}</source>
-            <translation type="unfinished" >omis : {line}</translation>
+            <translation type="unfinished">omis : {line}</translation>
         </message>
         <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
+            <translation type="unfinished">{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
         </message>
         <message>
             <source>cannot take in {source}: {reason} ({place})</source>
-            <translation type="unfinished" >impossible de prendre {source} : {reason} ({place})</translation>
+            <translation type="unfinished">impossible de prendre {source} : {reason} ({place})</translation>
         </message>
         <message>
             <source>the attempt {name} is another record here</source>
-            <translation type="unfinished" >l’essai {name} est ici un autre enregistrement</translation>
+            <translation type="unfinished">l’essai {name} est ici un autre enregistrement</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
+            <translation type="unfinished">{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
         </message>
         <message>
             <source>{name} is another file here</source>
-            <translation type="unfinished" >{name} est ici un autre fichier</translation>
+            <translation type="unfinished">{name} est ici un autre fichier</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
+            <translation type="unfinished">{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
         </message>
         <message>
             <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished" >{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
+            <translation type="unfinished">{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} est endommagé à {name} : reprenez-le sur son poste</translation>
+            <translation type="unfinished">{source} est endommagé à {name} : reprenez-le sur son poste</translation>
         </message>
         <message>
             <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
-            <translation type="unfinished" >{source} ne contient ni résultats ni cours d’un poste : écrivez-le de nouveau là-bas avec `acus store results` ou `acus store station`</translation>
+            <translation type="unfinished">{source} ne contient ni résultats ni cours d’un poste : écrivez-le de nouveau là-bas avec `acus store results` ou `acus store station`</translation>
         </message>
         <message>
             <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
-            <translation type="unfinished" >{source} est un autre fichier d’Acus ({kind!r:.40}) : donnez-en un écrit par `acus store results` ou `acus store station`</translation>
+            <translation type="unfinished">{source} est un autre fichier d’Acus ({kind!r:.40}) : donnez-en un écrit par `acus store results` ou `acus store station`</translation>
         </message>
         <message>
             <source>{source} was written by a newer version of Acus: use that version here too</source>
-            <translation type="unfinished" >{source} a été écrit par une version plus récente d’Acus : utilisez-la ici aussi</translation>
+            <translation type="unfinished">{source} a été écrit par une version plus récente d’Acus : utilisez-la ici aussi</translation>
         </message>
         <message>
             <source>{source} was altered after its station signed it: fetch it anew from the station</source>
-            <translation type="unfinished" >{source} a été altéré après la signature du poste : reprenez-le sur le poste</translation>
+            <translation type="unfinished">{source} a été altéré après la signature du poste : reprenez-le sur le poste</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
-            <translation type="unfinished" >{source} vient du poste {name}, que le formateur a révoqué : rien n’en est pris</translation>
+            <translation type="unfinished">{source} vient du poste {name}, que le formateur a révoqué : rien n’en est pris</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
-            <translation type="unfinished" >{source} vient du poste {name}, qui n’est pas connu ici par cette clé : comparez {fingerprint} avec `acus store stations` là-bas, puis prenez-le avec --trust</translation>
+            <translation type="unfinished">{source} vient du poste {name}, qui n’est pas connu ici par cette clé : comparez {fingerprint} avec `acus store stations` là-bas, puis prenez-le avec --trust</translation>
         </message>
         <message>
             <source>no station and public key</source>
-            <translation type="unfinished" >ni poste ni clé publique</translation>
+            <translation type="unfinished">ni poste ni clé publique</translation>
         </message>
         <message>
             <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
-            <translation type="unfinished" >{name!r} ne peut pas être le nom d’un poste : lettres, chiffres, espaces et . _ @ + - seulement, 40 au plus, en commençant par une lettre ou un chiffre</translation>
+            <translation type="unfinished">{name!r} ne peut pas être le nom d’un poste : lettres, chiffres, espaces et . _ @ + - seulement, 40 au plus, en commençant par une lettre ou un chiffre</translation>
         </message>
         <message>
             <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
-            <translation type="unfinished" >{station!r} n’est pas un poste connu, ou en désigne plusieurs : donnez le nom ou l’identifiant d’un seul ; connus : {names}</translation>
+            <translation type="unfinished">{station!r} n’est pas un poste connu, ou en désigne plusieurs : donnez le nom ou l’identifiant d’un seul ; connus : {names}</translation>
         </message>
         <message>
             <source>Bring results of stations together…</source>
-            <translation type="unfinished" >Réunir les résultats de plusieurs postes…</translation>
+            <translation type="unfinished">Réunir les résultats de plusieurs postes…</translation>
         </message>
         <message>
             <source>Write this station's results…</source>
-            <translation type="unfinished" >Écrire les résultats de ce poste…</translation>
+            <translation type="unfinished">Écrire les résultats de ce poste…</translation>
         </message>
         <message>
             <source>Write the course for a station…</source>
-            <translation type="unfinished" >Écrire le cours pour un poste…</translation>
+            <translation type="unfinished">Écrire le cours pour un poste…</translation>
         </message>
         <message>
             <source>Results of stations</source>
-            <translation type="unfinished" >Résultats de postes</translation>
+            <translation type="unfinished">Résultats de postes</translation>
         </message>
         <message>
             <source>Bringing stations together</source>
-            <translation type="unfinished" >Réunion des postes</translation>
+            <translation type="unfinished">Réunion des postes</translation>
+        </message>
+        <message>
+            <source>The database that the stations of a school share: postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite on a share. Empty: none.</source>
+            <translation type="unfinished">La base de données que partagent les postes d’une école : postgresql+psycopg://utilisateur:motdepasse@hôte/nom, ou sqlite:////dossier/fichier.sqlite sur un partage. Vide : aucune.</translation>
+        </message>
+        <message>
+            <source>Students and courses of this station go there</source>
+            <translation type="unfinished">Les étudiants et les cours de ce poste y vont</translation>
+        </message>
+        <message>
+            <source>With their PINs, as hashes</source>
+            <translation type="unfinished">Avec leurs codes PIN, hachés</translation>
+        </message>
+        <message>
+            <source>The school's store</source>
+            <translation type="unfinished">La base de l’école</translation>
+        </message>
+        <message>
+            <source>URL</source>
+            <translation type="unfinished">URL</translation>
+        </message>
+        <message>
+            <source>Exchanging with the school's store</source>
+            <translation type="unfinished">Échange avec la base de l’école</translation>
+        </message>
+        <message>
+            <source>Connecting to the school's store</source>
+            <translation type="unfinished">Connexion à la base de l’école</translation>
+        </message>
+        <message>
+            <source>School's store: up to date at {time}</source>
+            <translation type="unfinished">Base de l’école : à jour à {time}</translation>
+        </message>
+        <message>
+            <source>From other stations</source>
+            <translation type="unfinished">D’autres postes</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
-            <translation type="unfinished" >Admettre ces postes ?</translation>
+            <translation type="unfinished">Admettre ces postes ?</translation>
         </message>
         <message>
             <source>Let them in</source>
-            <translation type="unfinished" >Admettre</translation>
+            <translation type="unfinished">Admettre</translation>
+        </message>
+        <message>
+            <source>Exchange with the school's store now</source>
+            <translation type="unfinished">Échanger maintenant avec la base de l’école</translation>
+        </message>
+        <message>
+            <source>Connect to the school's store…</source>
+            <translation type="unfinished">Se connecter à la base de l’école…</translation>
         </message>
         <message>
             <source>Write this station's results</source>
-            <translation type="unfinished" >Écrire les résultats de ce poste</translation>
+            <translation type="unfinished">Écrire les résultats de ce poste</translation>
         </message>
         <message>
             <source>left out, altered: {names}</source>
-            <translation type="unfinished" >omis, car altérés : {names}</translation>
+            <translation type="unfinished">omis, car altérés : {names}</translation>
         </message>
         <message>
             <source>Write the course for a station</source>
-            <translation type="unfinished" >Écrire le cours pour un poste</translation>
+            <translation type="unfinished">Écrire le cours pour un poste</translation>
         </message>
         <message>
             <source>Writing the course for a station</source>
-            <translation type="unfinished" >Écriture du cours pour un poste</translation>
+            <translation type="unfinished">Écriture du cours pour un poste</translation>
         </message>
         <message>
             <source>remarks: {n}</source>
-            <translation type="unfinished" >remarques : {n}</translation>
+            <translation type="unfinished">remarques : {n}</translation>
         </message>
         <message>
             <source>new students: {n}</source>
-            <translation type="unfinished" >nouveaux étudiants : {n}</translation>
+            <translation type="unfinished">nouveaux étudiants : {n}</translation>
         </message>
         <message>
             <source>new courses: {n}</source>
-            <translation type="unfinished" >nouveaux cours : {n}</translation>
+            <translation type="unfinished">nouveaux cours : {n}</translation>
         </message>
         <message>
             <source>persons erased: {n}</source>
-            <translation type="unfinished" >personnes effacées : {n}</translation>
+            <translation type="unfinished">personnes effacées : {n}</translation>
         </message>
         <message>
             <source>left out as erased: {n}</source>
-            <translation type="unfinished" >omis car effacés : {n}</translation>
+            <translation type="unfinished">omis car effacés : {n}</translation>
         </message>
         <message>
             <source>Files of stations (*.acus)</source>
-            <translation type="unfinished" >Fichiers de postes (*.acus)</translation>
+            <translation type="unfinished">Fichiers de postes (*.acus)</translation>
+        </message>
+        <message>
+            <source>{store:?the school's store is {store}|this station shares no store}</source>
+            <translation type="unfinished">{store:?la base de l’école est {store}|ce poste ne partage aucune base}</translation>
+        </message>
+        <message>
+            <source>{gives_course:?people and courses of this station go there|}</source>
+            <translation type="unfinished">{gives_course:?les personnes et les cours de ce poste y vont|}</translation>
+        </message>
+        <message>
+            <source>this station shares no store: `acus store connect URL` connects it</source>
+            <translation type="unfinished">ce poste ne partage aucune base : `acus store connect URL` le connecte</translation>
+        </message>
+        <message>
+            <source>{sent:#1 packet|# packets} sent; {attempts:#1 attempt|# attempts}, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses} came; {erased} erased</source>
+            <translation type="unfinished">{sent:#1 paquet envoyé|# paquets envoyés} ; {attempts:#1 tentative|# tentatives}, {remarks:#1 remarque|# remarques}, {people:#1 étudiant|# étudiants}, {courses:#1 cours|# cours} reçus ; {erased} effacés</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✖ left out: {}</source>
+            <translation type="unfinished">✖ écarté : {}</translation>
+        </message>
+        <message>
+            <source>of erased people taken out of the store</source>
+            <translation type="unfinished">de personnes effacées retirés de la base</translation>
+        </message>
+        <message>
+            <source>the school's store {name} has no room left: its administrator makes some; nothing is lost, it is sent once there is</source>
+            <translation type="unfinished">la base de l’école {name} est pleine : son administrateur fait de la place ; rien n’est perdu, l’envoi suivra</translation>
+        </message>
+        <message>
+            <source>the school's store {name} may only be read by this user: its administrator gives the right to write; nothing is lost, it is sent then</source>
+            <translation type="unfinished">la base de l’école {name} ne peut qu’être lue par cet utilisateur : son administrateur donne le droit d’écrire ; rien n’est perdu, l’envoi suivra</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not know this user and password: give those of its administrator in the URL</source>
+            <translation type="unfinished">la base de l’école {name} ne connaît ni cet utilisateur ni ce mot de passe : donnez dans l’URL ceux de son administrateur</translation>
+        </message>
+        <message>
+            <source>there is no such database at {name}: its administrator makes it (`createdb`)</source>
+            <translation type="unfinished">il n’y a pas une telle base à {name} : son administrateur la crée (`createdb`)</translation>
+        </message>
+        <message>
+            <source>the school's store {name} takes longer than {seconds:g} s: this station goes on and tries again</source>
+            <translation type="unfinished">la base de l’école {name} met plus de {seconds:g} s : ce poste continue et réessaie</translation>
+        </message>
+        <message>
+            <source>{name} is no school's store, or a damaged one: give the URL of an empty database, or bring it back from its backup</source>
+            <translation type="unfinished">{name} n’est pas la base d’une école, ou elle est endommagée : donnez l’URL d’une base vide, ou rétablissez-la depuis sa sauvegarde</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">la base de l’école {name} ne répond pas : ce poste continue et réessaie ({reason})</translation>
+        </message>
+        <message>
+            <source>{url} is no place for objects: {reason}</source>
+            <translation type="unfinished">{url} n’est pas un lieu pour des objets : {reason}</translation>
+        </message>
+        <message>
+            <source>the object {digest} of the school's store is missing or damaged: its administrator brings it back from a backup; the rest was taken</source>
+            <translation type="unfinished">l’objet {digest} de la base de l’école manque ou est endommagé : son administrateur le rétablit depuis une sauvegarde ; le reste a été pris</translation>
+        </message>
+        <message>
+            <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">les objets de la base de l’école sont inutilisables : ce poste continue et réessaie ({reason})</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{path} ne dit pas où est la base de l’école : reconnectez ce poste avec `acus store connect URL`</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {reason}</source>
+            <translation type="unfinished">impossible d’écrire {path} : {reason}</translation>
+        </message>
+        <message>
+            <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
+            <translation type="unfinished">les fichiers de la base de l’école {name} sont ailleurs : donnez --objects comme sur les autres postes</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder} for the school's store: make it, or look whether the share is there</source>
+            <translation type="unfinished">il n’y a pas de dossier {folder} pour la base de l’école : créez-le, ou vérifiez que le partage est là</translation>
+        </message>
+        <message>
+            <source>the school's store {name} lies where files cannot be locked, so that two stations would break it: put it into PostgreSQL, or on a share with locks</source>
+            <translation type="unfinished">la base de l’école {name} est là où les fichiers ne peuvent être verrouillés, deux postes la casseraient : mettez-la dans PostgreSQL, ou sur un partage avec verrous</translation>
+        </message>
+        <message>
+            <source>{url!r} is no URL of a school's store: give postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite</source>
+            <translation type="unfinished">{url!r} n’est pas l’URL de la base d’une école : donnez postgresql+psycopg://utilisateur:motdepasse@hôte/nom, ou sqlite:////dossier/fichier.sqlite</translation>
+        </message>
+        <message>
+            <source>sending</source>
+            <translation type="unfinished">envoi</translation>
+        </message>
+        <message>
+            <source>{name} is not sent: it was altered</source>
+            <translation type="unfinished">{name} n’est pas envoyée : elle a été modifiée</translation>
+        </message>
+        <message>
+            <source>taking in</source>
+            <translation type="unfinished">réception</translation>
+        </message>
+        <message>
+            <source>packet {place} of the school's store</source>
+            <translation type="unfinished">paquet {place} de la base de l’école</translation>
+        </message>
+        <message>
+            <source>the school's store {name} was made by a newer version of Acus (step {here}, this one knows {known}): use that version here too; this station goes on by itself</source>
+            <translation type="unfinished">la base de l’école {name} a été faite par une version plus récente d’Acus (étape {here}, celle-ci connaît {known}) : utilisez cette version ici aussi ; ce poste continue seul</translation>
+        </message>
+        <message>
+            <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
+            <translation type="unfinished">{name} contient les tables d’un autre programme ({table}) : donnez à la base de l’école une base à elle</translation>
         </message>
     </context>
 </TS>

@@ -213,8 +213,9 @@ class SchoolStore:
                                 name=self.name,
                             )
                         )
-                    kept = self._objects.get(digest) if data is None and self._objects else data
-                    there[seq] = bytes(kept or b"")
+                    if data is None and self._objects is not None:
+                        data = self._objects.get(digest)
+                    there[seq] = bytes(data)
         return there
 
     def courses(self) -> list[PacketRow]:
@@ -237,13 +238,13 @@ class SchoolStore:
             return set(connection.execute(wanted).scalars())
 
     def take_out(
-        self, deleted: Iterable[str] = (), kept: Iterable[str] = (), seqs: Iterable[int] = ()
+        self, deleted: Iterable[str] = (), anonymous: Iterable[str] = (), seqs: Iterable[int] = ()
     ) -> int:
         """Let nothing stay of who was erased; return how many packets lost their data.
 
         Args:
             deleted: keys of students of whom everything goes.
-            kept: keys of those whose attempts stay, as nobody's: what was said of them goes.
+            anonymous: keys of those whose attempts stay, as nobody's: what was said of them goes.
             seqs: places of packets that name one of them.
         """
         from sqlalchemy import select, update
@@ -253,7 +254,7 @@ class SchoolStore:
         with self._writing() as connection:
             for column, values, more in (
                 (t.student, sorted(deleted), ()),
-                (t.student, sorted(kept), (t.kind == REMARKS,)),
+                (t.student, sorted(anonymous), (t.kind == REMARKS,)),
                 (t.seq, sorted(seqs), ()),
             ):
                 for some in _parts(values):
@@ -398,7 +399,7 @@ def _parts(values: Sequence[Any]) -> Iterator[Sequence[Any]]:
 
 def _no_url(text: str) -> str:
     return sentence(
-        "{text!r} is no URL of a school's store: give "
+        "{url!r} is no URL of a school's store: give "
         "postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite",
-        text=text[:80],
+        url=text[:80],
     )

@@ -210,15 +210,15 @@ class _Synchronising:
             erased = ErasedKeys(tombstones(connection))
         whose = {one: erased.of(one) for one in self.store.students()}
         deleted = {one for one, kind in whose.items() if kind == "deleted"}
-        kept = {one for one, kind in whose.items() if kind == "kept"}
+        anonymous = {one for one, kind in whose.items() if kind == "kept"}
         courses = []
         rows = self.store.courses()
         for seq, data in self.store.data(rows).items():
             manifest = _opened(seq, data).manifest
             if any(erased.of(person.key) for person in manifest.people):
                 courses.append(seq)
-        if deleted or kept or courses:
-            gone = self.store.take_out(deleted, kept, courses)
+        if deleted or anonymous or courses:
+            gone = self.store.take_out(deleted, anonymous, courses)
             self.result = replace(self.result, erased=gone)
 
     def give_course(self) -> None:
@@ -296,7 +296,7 @@ class _Synchronising:
 
 
 def _opened(seq: int, data: bytes) -> OpenedFile:
-    source = Path(sentence("packet {number} of the school's store", number=seq))
+    source = Path(sentence("packet {place} of the school's store", place=seq))
     with reading(source):
         archive = zipfile.ZipFile(io.BytesIO(data))
         return OpenedFile(archive, source, read_manifest(archive, source))
