@@ -20017,6 +20017,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">wird übernommen</translation>
         </message>
         <message>
+            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">die Station {name} ist hier nicht bekannt: {fingerprint} mit `acus store stations` dort vergleichen, dann einlassen (`acus store sync --trust`)</translation>
+        </message>
+        <message>
             <source>packet {place} of the school's store</source>
             <translation type="unfinished">Paket {place} des Speichers der Schule</translation>
         </message>

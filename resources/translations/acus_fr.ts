@@ -20017,6 +20017,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">réception</translation>
         </message>
         <message>
+            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">le poste {name} n’est pas connu ici : comparez {fingerprint} avec `acus store stations` là-bas, puis admettez-le (`acus store sync --trust`)</translation>
+        </message>
+        <message>
             <source>packet {place} of the school's store</source>
             <translation type="unfinished">paquet {place} de la base de l’école</translation>
         </message>

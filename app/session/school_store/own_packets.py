@@ -16,7 +16,7 @@ from app.core.progress import Progress
 from app.session.people import People
 from app.session.results_file import pack_attempt, pack_course, sender_of
 from app.session.school_file import RESULTS, SchoolManifest, write_manifest
-from app.session.school_store.packet import ATTEMPT, COURSE, ERASED, REMARKS, Packet
+from app.session.school_store.packet import ATTEMPT, COURSE, ERASED, REMARKS, STATION, Packet
 from app.session.school_tables import Tombstone
 from app.session.station import StationKey
 from app.session.station_results import (
@@ -79,7 +79,8 @@ class OwnThings:
 
     def marks(self) -> dict[tuple[str, str], str]:
         """Return the marks of all but the course, by kind and item."""
-        marks = {(ATTEMPT, one.attempt): one.record for one in self.own_attempts()}
+        marks = {(STATION, ""): _digest([self.key.public, self.sender.name])}
+        marks |= {(ATTEMPT, one.attempt): one.record for one in self.own_attempts()}
         marks |= {(REMARKS, whose): _mark(some) for whose, some in self.remarks.items()}
         return marks | {(ERASED, one.digest): one.digest for one in self.stones}
 
@@ -99,6 +100,9 @@ class OwnThings:
             some = self.remarks[item]
             data = self._signed(lambda _: SchoolManifest(RESULTS, self.sender, remarks=some))
             mark, student = _mark(some), item
+        elif kind == STATION:  # so that it can be let in before it has made anything
+            data = self._signed(lambda _: SchoolManifest(RESULTS, self.sender))
+            mark, student = self.marks()[STATION, ""], ""
         else:
             (stone,) = (one for one in self.stones if one.digest == item)
             data = self._signed(lambda _: SchoolManifest(RESULTS, self.sender, tombstones=(stone,)))
@@ -140,7 +144,7 @@ class OwnThings:
 def missing(own: OwnThings, there: Mapping[tuple[str, str], str]) -> Iterator[tuple[str, str]]:
     """Return kind and item of what the store has not, erasures first."""
     marks = own.marks()
-    for kind in (ERASED, ATTEMPT, REMARKS):
+    for kind in (STATION, ERASED, ATTEMPT, REMARKS):
         for (which, item), mark in marks.items():
             if which == kind and there.get((which, item)) != mark:
                 yield which, item

@@ -6,6 +6,7 @@ import hashlib
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
+STATION: Final = "station"
 ATTEMPT: Final = "attempt"
 REMARKS: Final = "remarks"
 ERASED: Final = "erased"
@@ -18,9 +19,9 @@ class Packet:
 
     Attributes:
         station: id.
-        kind: `attempt`, `remarks`, `erased` or `course`.
+        kind: `station`, `attempt`, `remarks`, `erased` or `course`.
         item: id of the attempt, key of the student of remarks, digest of a tombstone; empty of a
-            course.
+            station and a course.
         student: random key; empty of what is about nobody alone.
         mark: digest of what it says: of one station, kind and item another mark is something new.
         data: the signed file.

@@ -22,7 +22,7 @@ from app.core.messages import sentence
 from app.session.database import lockable
 from app.session.school_store.errors import StoreError, named_errors
 from app.session.school_store.objects import Objects
-from app.session.school_store.packet import ATTEMPT, COURSE, REMARKS, Packet, PacketRow
+from app.session.school_store.packet import ATTEMPT, COURSE, REMARKS, STATION, Packet, PacketRow
 from app.session.school_store.tables import BEGIN, about, chained, packets, upgrade
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ _MANY: Final = 500
 """So many values stand in one statement."""
 
 
-class Place(NamedTuple):
+class ReadPlace(NamedTuple):
     """How far a station has read: the place of a packet, and the chain value there."""
 
     seq: int = 0
@@ -115,7 +115,7 @@ class SchoolStore:
         """Add packets, all or none; return how many were not there.
 
         One that is there with the same mark is passed over: an answer may have been lost. Of
-        remarks and courses the one before loses its data.
+        stations, remarks and courses the one before loses its data.
 
         Raises:
             StoreError: as `open`.
@@ -150,7 +150,7 @@ class SchoolStore:
                     "data": packet.data if self._objects is None else None,
                 }
                 old = [row for row in there if not row.gone]
-                if old and packet.kind in (REMARKS, COURSE):
+                if old and packet.kind in (REMARKS, COURSE, STATION):
                     seqs = [row.seq for row in old]
                     blank = update(packets()).where(t.seq.in_(seqs))
                     connection.execute(blank.values(gone=True, data=None))
@@ -160,7 +160,7 @@ class SchoolStore:
         self._discard(replaced)
         return added
 
-    def after(self, place: Place) -> tuple[list[PacketRow], Place]:
+    def after(self, place: ReadPlace) -> tuple[list[PacketRow], ReadPlace]:
         """Return what came after a place, and the place to go on from.
 
         Where the store is not what it was at that place, such as one that was put back from an
@@ -177,7 +177,7 @@ class SchoolStore:
             rows = [PacketRow(*row) for row in connection.execute(wanted)]
             last = select(t.seq, t.chain).order_by(t.seq.desc()).limit(1)
             head = connection.execute(last).first()
-        return rows, Place(*head) if head else Place()
+        return rows, ReadPlace(*head) if head else ReadPlace()
 
     def at(self, seqs: Iterable[int]) -> list[PacketRow]:
         """Return packets by their places, of those that are still there."""
@@ -302,7 +302,8 @@ class SchoolStore:
 
         url = make_url(self._url)
         arguments: dict[str, Any]
-        if url.get_backend_name() == "sqlite":
+        sqlite = url.get_backend_name() == "sqlite"
+        if sqlite:
             _check_folder(Path(str(url.database)), self.name)
             arguments = {"timeout": self._seconds}
         else:
@@ -315,10 +316,11 @@ class SchoolStore:
                 "application_name": "acus",
             }
         try:
-            engine = create_engine(url, poolclass=NullPool, connect_args=arguments)
+            pool = {"poolclass": NullPool} if sqlite else {"pool_size": 1, "max_overflow": 0}
+            engine = create_engine(url, connect_args=arguments, **pool)
         except ImportError as error:
             raise not_installed(StoreError, "psycopg", "school") from error
-        if url.get_backend_name() == "sqlite":
+        if sqlite:
             event.listen(engine, "connect", _by_hand)
             event.listen(engine, "begin", _begin)
             return engine

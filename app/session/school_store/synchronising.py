@@ -25,13 +25,13 @@ from app.session.results_file import up_to_date
 from app.session.school_file import COURSE as COURSE_FILE
 from app.session.school_file import UnknownStationError, read_manifest, stations_with
 from app.session.school_store.own_packets import OwnThings, missing
-from app.session.school_store.packet import ATTEMPT, COURSE, ERASED, REMARKS, PacketRow
+from app.session.school_store.packet import ATTEMPT, COURSE, ERASED, REMARKS, STATION, PacketRow
 from app.session.school_store.place import StorePlace
-from app.session.school_store.store import Place, SchoolStore
+from app.session.school_store.store import ReadPlace, SchoolStore
 from app.session.school_tables import ErasedKeys
 from app.session.station import StationKey
 from app.session.station_results import tombstones
-from app.session.stations import put_setting, stations_of
+from app.session.stations import fingerprint, put_setting, stations_of
 from app.session.taking_in import OpenedFile
 
 STATE: Final = "school store"
@@ -74,7 +74,7 @@ class SyncState:
         confirmed: attempts of this station that are there.
     """
 
-    place: Place = field(default_factory=Place)
+    place: ReadPlace = field(default_factory=ReadPlace)
     left: frozenset[int] = frozenset()
     files: frozenset[str] = frozenset()
     confirmed: int = 0
@@ -85,7 +85,7 @@ class SyncState:
         try:
             document = json.loads(people.setting(STATE) or "{}")
             return cls(
-                Place(int(document["seq"]), str(document["chain"])),
+                ReadPlace(int(document["seq"]), str(document["chain"])),
                 frozenset(map(int, document["left"])),
                 frozenset(map(str, document["files"])),
                 int(document["confirmed"]),
@@ -169,6 +169,7 @@ class _Synchronising:
         self.key, self.trust = key, trust
         self.result, self.changed = Synchronised(store.name), False
         self.state = SyncState.of(people)
+        self.strange: set[str] = set()
 
     def send(self, progress: Progress) -> None:
         """Put there what is not."""
@@ -194,10 +195,9 @@ class _Synchronising:
         own = OwnThings.read(self.folder, self.people, self.key)
         marks = own.marks()
         wanted = [row for row in rows if not self._is_here(row, own, marks)]
-        order = {ERASED: 0, COURSE: 1, ATTEMPT: 2, REMARKS: 3}
-        wanted.sort(key=lambda row: (order.get(row.kind, 4), row.seq))
+        wanted.sort(key=lambda row: row.seq)
         left: set[int] = set()
-        for kind in (ERASED, COURSE, ATTEMPT, REMARKS):
+        for kind in (STATION, ERASED, COURSE, ATTEMPT, REMARKS):
             some = [row for row in wanted if row.kind == kind]
             for number, batch in enumerate(_batches(some)):
                 progress.report(number / (number + 1), sentence("taking in"))
@@ -242,24 +242,19 @@ class _Synchronising:
     def _take(self, rows: Sequence[PacketRow]) -> set[int]:
         """Take in some packets; return the places of those that have to wait."""
         known = stations_of(self.people)
-        ids = {one.station for one in known.values()} | {self.key.station}
-        strange = {row.station for row in rows} - ids
-        left = set()
-        if not self.trust:
-            for station in strange:  # one of each tells who it is
-                own = [row for row in rows if row.station == station]
-                left |= {row.seq for row in own[1:]}
+        left = {row.seq for row in rows if row.station in self.strange}
         data = self.store.data([row for row in rows if row.seq not in left])
         opened: dict[int, OpenedFile] = {}
         for row in rows:
-            if row.seq not in data:
+            if row.seq not in data or row.station in self.strange:
+                left |= {row.seq} & data.keys()
                 continue
             try:
                 one = _opened(row.seq, data[row.seq])
                 known = stations_with(one.manifest, known, self.key, one.source, self.trust)
                 opened[row.seq] = one
-            except UnknownStationError as error:
-                self._name_unknown(sentence_of(error))
+            except UnknownStationError:
+                self._name_unknown(row.station, one)
                 left.add(row.seq)
             except ArchiveError as error:
                 self._refuse(sentence_of(error))
@@ -291,7 +286,15 @@ class _Synchronising:
     def _refuse(self, line: str) -> None:
         self.result = replace(self.result, refused=(*self.result.refused, line))
 
-    def _name_unknown(self, line: str) -> None:
+    def _name_unknown(self, station: str, file: OpenedFile) -> None:
+        sender = file.manifest.sender
+        line = sentence(
+            "the station {name} is not known here: compare {fingerprint} with `acus store stations`"
+            " there, then let it in (`acus store sync --trust`)",
+            name=sender.name,
+            fingerprint=fingerprint(sender.public),
+        )
+        self.strange.add(station)
         self.result = replace(self.result, unknown=(*self.result.unknown, line))
 
 
