@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.session.audit import note
 from app.session.backup_file import ArchiveError
 from app.session.erasing import finish_erasing
 from app.session.people import People
@@ -105,6 +106,8 @@ def gather_opened(
     at = TakingIn(tuple(files), folder, people, key, known, giving_way)
     at.take(names, progress.part(0.2, 1.0))
     finish_erasing(folder, people)
+    senders = sorted({one.manifest.sender.station for one in files})
+    note("files taken in", senders, people.folder)
     return at.done
 
 

@@ -20,6 +20,7 @@ from app.core import paths
 from app.core.files import read_at_most, write_atomically
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.session.audit import note
 from app.session.backup_file import ArchiveError, Manifest, read_manifest, unpack
 from app.session.erasing import finish_erasing
 from app.session.errors import BrokenRecordingError
@@ -154,6 +155,7 @@ def restore_backup(
             )
         ) from error
     finish_erasing(folder, people)
+    note("backup restored", [manifest.station], people.folder)
     return at.done
 
 

@@ -19733,6 +19733,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">ausgelassen: {line}</translation>
         </message>
         <message>
+            <source>{number:6} {time:25} {who:14} {what:22} {count:4} {about}</source>
+            <translation type="unfinished">{number:6} {time:25} {who:14} {what:22} {count:4} {about}</translation>
+        </message>
+        <message>
+            <source>nothing was done yet</source>
+            <translation type="unfinished">noch wurde nichts getan</translation>
+        </message>
+        <message>
+            <source>{wrong:?✖ not as they were written: {wrong}|}</source>
+            <translation type="unfinished">{wrong:?✖ nicht, wie sie geschrieben wurden: {wrong}|}</translation>
+        </message>
+        <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
             <translation type="unfinished">{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
         </message>

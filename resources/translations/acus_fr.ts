@@ -19733,6 +19733,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">omis : {line}</translation>
         </message>
         <message>
+            <source>{number:6} {time:25} {who:14} {what:22} {count:4} {about}</source>
+            <translation type="unfinished">{number:6} {time:25} {who:14} {what:22} {count:4} {about}</translation>
+        </message>
+        <message>
+            <source>nothing was done yet</source>
+            <translation type="unfinished">rien n’a encore été fait</translation>
+        </message>
+        <message>
+            <source>{wrong:?✖ not as they were written: {wrong}|}</source>
+            <translation type="unfinished">{wrong:?✖ pas telles qu’elles furent écrites : {wrong}|}</translation>
+        </message>
+        <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
             <translation type="unfinished">{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
         </message>

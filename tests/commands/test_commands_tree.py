@@ -121,6 +121,7 @@ EXAMPLES = {
     "results board": (),
     "session export": ("--out", "all.csv"),
     "session list": (),
+    "store audit": (),
     "store backup": ("--out", "all.acusbackup"),
     "store connect": ("sqlite:///school.sqlite",),
     "store empty-trash": (),

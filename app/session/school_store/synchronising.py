@@ -17,6 +17,7 @@ from typing import Any, Final
 
 from app.core.messages import sentence, sentence_of
 from app.core.progress import Progress
+from app.session.audit import note
 from app.session.backup_file import ArchiveError
 from app.session.gathering import GatheredFile, gather_opened, reading
 from app.session.limits import hold_limits
@@ -143,6 +144,8 @@ def synchronise(
                 excess = hold_limits(connection, people.folder)
             at.result = replace(at.result, gathered=replace(at.result.gathered, excess=excess))
         at.state.keep(people)
+    if at.result.sent or at.changed:
+        note("store synchronised", folder=people.folder)
     return at.result
 
 
