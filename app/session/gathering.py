@@ -30,6 +30,7 @@ from app.core import paths
 from app.core.files import LARGEST_FILE
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.session.accounts import owner_of
 from app.session.backup_file import ArchiveError, unpack
 from app.session.erasing import finish_erasing
 from app.session.header import TRASH
@@ -394,7 +395,11 @@ class _Gathering:
             if names and one.name:
                 after.setdefault(one.key, one.name)
         self._erase(connection, set(known))
-        after = {key: name for key, name in after.items() if not self.erased_keys.of(key)}
+        after = {
+            entry: name
+            for entry, name in after.items()
+            if not self.erased_keys.of(owner_of(entry))
+        }
         if after != listed:
             write_names(after)
 

@@ -5,30 +5,32 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
 from app.core.files import read_at_most
 from app.core.messages import sentence
+from app.session.accounts import Account
 from app.session.errors import PeopleError
 from app.session.header import LONGEST_PSEUDONYM
+from app.session.roster_headings import columns_of
 
 _PSEUDONYM: Final = re.compile(r"\w(?:[\w .@+-]*[\w.@+-])?")
 _KEY: Final = re.compile(r"p-[0-9a-f]{12}")
 _PIN: Final = re.compile(r"[0-9]{4,12}")
-_FIELDS: Final = ("pseudonym", "name", "pin", "group")
 
 
 @dataclass(frozen=True, slots=True)
 class RosterLine:
-    """One row of a roster: pseudonym, name, PIN (empty: drawn) and groups."""
+    """One row of a roster: pseudonym, name, PIN (empty: drawn), groups, what others call him."""
 
     pseudonym: str
     name: str = ""
     pin: str = ""
     groups: tuple[str, ...] = ()
+    accounts: Mapping[Account, str] = field(default_factory=dict, repr=False)
 
 
 def checked_pin(pin: str, whose: str = "") -> str:
@@ -104,7 +106,8 @@ def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
     """Read a roster: CSV with a heading, separated by commas, semicolons or tabs.
 
     Columns: `pseudonym` (needed), `name`, `pin` (4 to 12 digits; drawn where it is empty), `group`
-    (several separated by `|`).
+    (several separated by `|`), `username`, `email`, `idnumber`; or those of Moodle
+    (`roster_headings`).
 
     Returns:
         Its rows, and one line for each row that cannot be read.
@@ -123,34 +126,54 @@ def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
         table = [(rows.line_num, [cell.strip() for cell in row]) for row in rows]
     except csv.Error as error:
         return [], [f"line {rows.line_num}: {error}: save the roster anew as “CSV UTF-8”"]
-    names = [name.casefold() for name in table[0][1]] if table else []
-    if "pseudonym" not in names:
-        wanted = ", ".join(_FIELDS)
-        return [], [f"line 1: the heading needs the column pseudonym; columns are {wanted}"]
-    errors = [
-        f"line 1: column {name!r} is not known; columns are {', '.join(_FIELDS)}"
-        for name in names
-        if name and name not in _FIELDS
-    ]
+    columns = columns_of(table[0][1] if table else ())
+    if not columns.fields:
+        return [], list(columns.errors)
+    errors, width = list(columns.errors), len(columns.fields)
     found: dict[str, RosterLine] = {}
+    holders: dict[tuple[Account, str], str] = {}
     for number, row in table[1:]:
         if not any(row):
             errors.append(f"line {number}: the row is empty: delete it")
             continue
-        if len(row) != len(names):
-            errors.append(f"line {number}: {len(row)} cells, the heading has {len(names)}")
+        if len(row) != width:
+            errors.append(f"line {number}: {len(row)} cells, the heading has {width}")
             continue
-        cells = dict(zip(names, row, strict=True))
-        groups = tuple(sorted({g.strip() for g in cells.get("group", "").split("|") if g.strip()}))
-        line = RosterLine(cells["pseudonym"], cells.get("name", ""), cells.get("pin", ""), groups)
-        wrong = judged_lines([line])[1]
+        cells, sign = columns.cells(row), columns.between_groups
+        groups = cells.get("groups", cells.get("group", "")).split(sign)
+        line = RosterLine(
+            cells["pseudonym"],
+            cells.get("name", ""),
+            cells.get("pin", ""),
+            tuple(sorted({group.strip() for group in groups if group.strip()})),
+            {kind: cells[kind] for kind in Account if cells.get(kind)},
+        )
+        wrong = judged_lines([line])[1] or _wrong_accounts(line, holders)
         if wrong:
             errors.append(f"line {number}: {wrong[0]}")
         elif line.pseudonym.casefold() in found:
             errors.append(f"line {number}: {line.pseudonym!r} stands there twice: delete one row")
         else:
             found[line.pseudonym.casefold()] = line
+            holders |= {(k, v.casefold()): line.pseudonym for k, v in line.accounts.items()}
     return list(found.values()), errors
+
+
+def _wrong_accounts(line: RosterLine, holders: Mapping[tuple[Account, str], str]) -> list[str]:
+    """Say which identifier of a row is none, or another row's."""
+    email = line.accounts.get(Account.EMAIL, "@")
+    if "@" not in email:
+        return [sentence("{email!r} is no e-mail address: correct it", email=email)]
+    return [
+        sentence(
+            "the {kind} {identifier!r} is that of {holder!r} too: correct one of them",
+            kind=kind.value,
+            identifier=value,
+            holder=holders[kind, value.casefold()],
+        )
+        for kind, value in line.accounts.items()
+        if (kind, value.casefold()) in holders
+    ]
 
 
 def judged_lines(lines: Sequence[RosterLine]) -> tuple[list[RosterLine], list[str]]:
@@ -168,7 +191,7 @@ def judged_lines(lines: Sequence[RosterLine]) -> tuple[list[RosterLine], list[st
                         "{pseudonym!r} stands there twice: delete one row", pseudonym=pseudonym
                     )
                 )
-            good[pseudonym.casefold()] = RosterLine(pseudonym, line.name, line.pin, line.groups)
+            good[pseudonym.casefold()] = replace(line, pseudonym=pseudonym)
         except PeopleError as error:
             errors.append(str(error))
     return list(good.values()), errors
