@@ -155,6 +155,11 @@ def export(
                 identifier=identifier,
             )
         )
+    for_moodle = bool(identifier or feedback) and form != ResultsFormat.MOODLE
+    if for_moodle or (grade and form not in (ResultsFormat.MOODLE, PDF)):
+        raise typer.BadParameter(
+            sentence("--identifier and --feedback are for moodle, --grade for moodle and pdf")
+        )
     rule = GradeRule.of(grade or "best")
     instructor()
     results = _results(course, group, folder, names)
@@ -164,9 +169,7 @@ def export(
     else:
         choice = MoodleChoice(Account(identifier or "username"), rule, feedback)
         told = (ResultsFormat(form), semicolons)
-        text = with_progress(
-            lambda progress: results_text(results, *told, progress, choice, local)
-        )
+        text = with_progress(lambda progress: results_text(results, *told, progress, choice, local))
         write_results(out, text)
     if form == ResultsFormat.MOODLE or (form == PDF and not student):
         chance = chance_words(results.board, rule)
@@ -258,20 +261,26 @@ def _write_report(
     place: str,
 ) -> None:
     """Draw the report of the group, or of one student, and write it whole or not at all."""
-    from app.exercises.library import library
+    from app.commands.calibrate_parts import with_progress
+    from app.session.course import find_course
     from app.session.people import People
-    from app.views.people.results_report import group_report, student_report, write_report
+    from app.session.stations import NAME_SETTING
+    from app.views.people.group_report import ReportFacts, group_report
+    from app.views.people.results_report import student_report, write_report
 
-    person = People().find(student) if student else None
-    titles = {one.id: one.title for one in library()}
-    heading = " · ".join(filter(None, (course, group))) or "Acus"
-    write_report(
-        out,
-        lambda: (
-            group_report(results, titles, heading)
-            if person is None
-            else student_report(results, person, titles)
-        ),
+    people, titles = People(), results.titles
+    person = people.find(student) if student else None
+    where = place or people.setting(NAME_SETTING)
+    facts = ReportFacts(find_course(course).title if course else "", group, where, rule)
+    with_progress(
+        lambda progress: write_report(
+            out,
+            lambda: (
+                group_report(results, titles, facts, progress)
+                if person is None
+                else student_report(results, person, titles)
+            ),
+        )
     )
 
 

@@ -1,8 +1,9 @@
 """Names in the order in which people look for them, where no table of a language is at hand.
 
-Letters with signs stand at their base letter (ü at u, ó at o, ł at l), case counts last, and numbers
-go by value, as the Unicode Collation Algorithm orders Latin letters without tailoring (UTS #10).
-Languages that count å or ł as a letter of its own need their own table: the window has Qt's.
+Letters with signs stand at their base letter (ü at u, ó at o, ł at l), case counts last, and
+numbers go by value, much as the Unicode Collation Algorithm orders Latin letters where no language
+tailors it (UTS #10). Languages that count å or ł as a letter of its own need their own table: the
+window has Qt's.
 """
 
 from __future__ import annotations

@@ -9,7 +9,8 @@ Moodle's rules, from its sources (`grade/import/csv/classes/load_data.php`, `lib
   one above 100 or that is no number ends the import, and nothing of the file is taken;
 - one column identifies the user: user name, e-mail address (both whatever case) or ID number; one
   that is unknown or that two users have ends the import, and an empty one gave its grades to the
-  user of the row before in older versions; a value that begins with = + - @ gets an apostrophe and is then unknown;
+  user of the row before in older versions; a value that begins with = + - @ gets an apostrophe
+  and is then unknown;
 - heads become the names of new items; feedback can be mapped to items that exist only.
 """
 

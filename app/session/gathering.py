@@ -396,9 +396,7 @@ class _Gathering:
                 after.setdefault(one.key, one.name)
         self._erase(connection, set(known))
         after = {
-            entry: name
-            for entry, name in after.items()
-            if not self.erased_keys.of(owner_of(entry))
+            entry: name for entry, name in after.items() if not self.erased_keys.of(owner_of(entry))
         }
         if after != listed:
             write_names(after)

@@ -66,7 +66,7 @@ class Columns:
 
 def columns_of(heading: Sequence[str]) -> Columns:
     """Return what the columns of a roster hold, by its heading."""
-    names = [name.casefold().replace("’", "'") for name in heading]  # noqa: RUF001
+    names = [name.casefold().replace("’", "'") for name in heading]
     if _FIRST_AND_LAST.isdisjoint(names) and (
         "pseudonym" in names or not {"username", "email address"} & set(names)
     ):

@@ -13,8 +13,9 @@ from app.session.board import progress_board
 from app.session.course import CourseItem
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
-from app.views.people import results_report
-from app.views.people.results_report import group_report, student_report
+from app.views.people.group_report import ReportFacts, group_report, in_order
+from app.views.people.results_report import student_report
+from app.views.people.sheet import Sheet
 
 NOW = datetime.datetime(2026, 11, 23, 12, 0, tzinfo=datetime.UTC)
 
@@ -57,19 +58,19 @@ def results_of(students, exercises, attempts, names=None):
 def drawn(monkeypatch, application):
     """Every text that is drawn on the last pass, page by page."""
     pages = {}
-    write, paragraph = results_report._Sheet.text, results_report._Sheet.paragraph
+    write, paragraph = Sheet.text, Sheet.paragraph
 
     def text(sheet, x, words, *given, **more):
         pages.setdefault((sheet.pages, sheet.page), []).append(words)
-        assert 0.0 < sheet.y < results_report.HEIGHT
+        assert 0.0 < sheet.y < sheet.height
         return write(sheet, x, words, *given, **more)
 
     def lines(sheet, words, *given, **more):
         pages.setdefault((sheet.pages, sheet.page), []).append(words)
         return paragraph(sheet, words, *given, **more)
 
-    monkeypatch.setattr(results_report._Sheet, "text", text)
-    monkeypatch.setattr(results_report._Sheet, "paragraph", lines)
+    monkeypatch.setattr(Sheet, "text", text)
+    monkeypatch.setattr(Sheet, "paragraph", lines)
 
     def last():
         most = max(count for count, _ in pages)
