@@ -1,8 +1,8 @@
 """Moodle's import of grades from CSV, written after its sources and PHP's manual; no code of ours.
 
-- `lib/csvlib.class.php`, `csv_import_reader::load_csv_content`: convert, take off a byte order mark,
-  ends of lines to \\n, trim, `fgetcsv` with enclosure " and escape \\; every row as many cells as the
-  heading; then all of it is written by `csv_export_writer` (a formula gets an apostrophe, by
+- `lib/csvlib.class.php`, `csv_import_reader::load_csv_content`: convert, take off a byte order
+  mark, ends of lines to \\n, trim, `fgetcsv` with enclosure " and escape \\; every row as many cells
+  as the heading; then all of it is written by `csv_export_writer` (a formula gets an apostrophe, by
   `core\\dataformat::escape_spreadsheet_formula`) and read again;
 - `grade/import/csv/classes/load_data.php`: `check_user_exists`, `import_new_grade_item`,
   `update_grade_item`, `create_feedback`, `insert_grade_record`, `prepare_import_grade_data`;
@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 SEPARATORS = {"comma": ",", "semicolon": ";", "colon": ":", "tab": "\t"}
 
 
-class ImportRefused(Exception):
+class ImportRefusedError(Exception):
     """Moodle's import ends with an error, and nothing of the file is taken."""
 
 
@@ -41,7 +41,7 @@ def fgetcsv(text, separator):
                 else:
                     cell, at = cell + text[at], at + 1
             else:
-                raise ImportRefused("csvweirdcolumns")  # an enclosure that nothing ends
+                raise ImportRefusedError("csvweirdcolumns")  # an enclosure that nothing ends
         while at < len(text) and text[at] not in (separator, "\n"):
             cell, at = cell + text[at], at + 1
         row.append(cell)
@@ -78,9 +78,9 @@ def load_csv_content(data, encoding, separator):
     text = re.sub(r"\r\n?", "\n", text).strip(" \t\n\r\0\x0b")
     rows = fgetcsv(text, SEPARATORS[separator])
     if not rows:
-        raise ImportRefused("csvemptyfile")
+        raise ImportRefusedError("csvemptyfile")
     if any(len(row) != len(rows[0]) for row in rows):
-        raise ImportRefused("csvweirdcolumns")
+        raise ImportRefusedError("csvweirdcolumns")
     safe = [[escape_spreadsheet_formula(cell) for cell in row] for row in rows]
     again = fgetcsv("".join(fputcsv(row, ",") for row in safe), ",")
     return [head.strip() for head in rows[0]], again[1:]
@@ -103,7 +103,7 @@ class MoodleCourse:
             if (user[kind].lower() == value.lower() if folded else user[kind] == value)
         ]
         if len(match) != 1:
-            raise ImportRefused("usermappingerror" if not match else "multipleusersfound")
+            raise ImportRefusedError("usermappingerror" if not match else "multipleusersfound")
         return match[0]["username"]
 
     def take(self, data, kind, separator="comma", decsep="."):
@@ -127,8 +127,8 @@ class MoodleCourse:
                 # `unformat_float` is for items that are there; a new one has the cell as it stands
                 text = cell.replace(" ", "").replace(decsep, ".") if head in there else cell
                 if not re.fullmatch(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", text):
-                    raise ImportRefused("badgrade")
+                    raise ImportRefusedError("badgrade")
                 if not 0.0 <= float(text) <= 100.0:
-                    raise ImportRefused("gradevaluetoobig")
+                    raise ImportRefusedError("gradevaluetoobig")
                 grades[head][user] = float(text)
         self.grades, self.feedback = grades, feedback

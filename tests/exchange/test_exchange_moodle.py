@@ -10,7 +10,7 @@ import pytest
 
 sys.path.append(str(Path(__file__).parents[1] / "session"))
 sys.path.append(str(Path(__file__).parent))
-from moodle_reader import ImportRefused, MoodleCourse, fgetcsv, load_csv_content
+from moodle_reader import ImportRefusedError, MoodleCourse, fgetcsv, load_csv_content
 from test_session_course import ADA, BOB, NOW, attempt
 
 from app.exchange.errors import ExportError
@@ -67,7 +67,7 @@ def test_a_german_moodle_takes_a_new_item_with_the_decimal_point_that_is_written
     course = MoodleCourse(USERS)
     course.take(written(MoodleChoice(), semicolons=True), "username", "semicolon", decsep=",")
     assert course.grades[LUNG] == {"ada": 70.5}
-    with pytest.raises(ImportRefused, match="badgrade"):
+    with pytest.raises(ImportRefusedError, match="badgrade"):
         MoodleCourse(USERS).take(b"username;New\r\nada;70,5\r\n", "username", "semicolon", ",")
 
 
@@ -112,7 +112,7 @@ def said_of_bob(course: MoodleCourse) -> str:
 def test_the_reader_hides_a_quote_behind_a_backslash_as_php_does() -> None:
     assert fgetcsv('"a\\",b"\n', ",") == [['a\\",b']]
     assert fgetcsv('"a""b",\'c\'', ",") == [['a"b', "'c'"]]
-    with pytest.raises(ImportRefused):
+    with pytest.raises(ImportRefusedError):
         load_csv_content(b'a,b\n"c\\",d\n', "utf-8", "comma")
 
 
@@ -165,9 +165,7 @@ def test_what_chance_adds_to_the_best_is_what_simulated_students_get() -> None:
     people = [Person(f"p-{k}", f"s{k}") for k in range(300)]
     totals = random.normal(50.0, 6.0, (300, 4))
     some = [
-        attempt(f"a{k}-{n}", f"p-{k}", float(totals[k, n]), n)
-        for k in range(300)
-        for n in range(4)
+        attempt(f"a{k}-{n}", f"p-{k}", float(totals[k, n]), n) for k in range(300) for n in range(4)
     ]
     shown = progress_board(people, [CourseItem(exercise="lung")], some, {}, NOW)
     words = chance_words(shown, GradeRule.of("best"))
