@@ -1,9 +1,9 @@
 """Moodle's import of grades from CSV, written after its sources and PHP's manual; no code of ours.
 
 - `lib/csvlib.class.php`, `csv_import_reader::load_csv_content`: convert, take off a byte order
-  mark, ends of lines to \\n, trim, `fgetcsv` with enclosure " and escape \\; every row as many cells
-  as the heading; then all of it is written by `csv_export_writer` (a formula gets an apostrophe, by
-  `core\\dataformat::escape_spreadsheet_formula`) and read again;
+  mark, ends of lines to \\n, trim, `fgetcsv` with enclosure " and escape \\; every row as many
+  cells as the heading; then all of it is written by `csv_export_writer` (a formula gets an
+  apostrophe, by `core\\dataformat::escape_spreadsheet_formula`) and read again;
 - `grade/import/csv/classes/load_data.php`: `check_user_exists`, `import_new_grade_item`,
   `update_grade_item`, `create_feedback`, `insert_grade_record`, `prepare_import_grade_data`;
 - PHP's `fgetcsv`: between enclosures a backslash keeps the sign after it, a quote among them, and

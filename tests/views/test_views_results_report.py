@@ -152,6 +152,7 @@ def test_names_are_sorted_as_the_language_of_the_reader_sorts_them(application):
         "student 9",
     )
     results = results_of(len(names), 1, 1, {f"p-{k}": name for k, name in enumerate(names)})
+    before = QLocale()
     try:
         for language, order in (
             ("en", "Łukasz Lutz Müller Muzik Óscar Otto student 9|student 10 Zorn"),
