@@ -223,9 +223,9 @@ def xapi(
         "new": new,
         "waiting": len(waiting.waiting()),
     }
-    shown = template(
-        "{statements:#1 statement|# statements} of {waiting:#1 that waits|# that wait} to be sent, "
-        "{new:#} new{files:? written to {files}|}"
+    shown = (
+        template("{statements:#1 statement|# statements}{files:?, written to {files}|}"),
+        template("queue: {new:#} new, {waiting:#1 waits|# wait} to be sent"),
     )
     return Answer(facts, shown=shown)
 

@@ -996,8 +996,28 @@
             <translation type="unfinished">--student gilt für pdf; die Tabellen enthalten alle</translation>
         </message>
         <message>
+            <source>{identifier}: Moodle knows students by username, email or idnumber</source>
+            <translation type="unfinished">{identifier}: Moodle kennt Teilnehmer nach username, email oder idnumber</translation>
+        </message>
+        <message>
+            <source>--identifier and --feedback are for moodle, --grade for moodle and pdf</source>
+            <translation type="unfinished">--identifier und --feedback gelten für moodle, --grade für moodle und pdf</translation>
+        </message>
+        <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
             <translation type="unfinished">{attempts:#1 Versuch|# Versuche} von {students:#1 Teilnehmer|# Teilnehmern} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>nothing to do: give --out FILE, --queue, or both</source>
+            <translation type="unfinished">nichts zu tun: --out DATEI, --queue oder beides angeben</translation>
+        </message>
+        <message>
+            <source>{statements:#1 statement|# statements}{files:?, written to {files}|}</source>
+            <translation type="unfinished">{statements:#1 Aussage|# Aussagen}{files:?, geschrieben in {files}|}</translation>
+        </message>
+        <message>
+            <source>queue: {new:#} new, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">Warteschlange: {new:#} neu, {waiting:#1 wartet|# warten} auf das Senden</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
@@ -5581,7 +5601,7 @@
         </message>
         <message>
             <source>beyond the attempts that the course allows</source>
-            <translation type="unfinished" >über die Versuche hinaus, die der Kurs erlaubt</translation>
+            <translation type="unfinished">über die Versuche hinaus, die der Kurs erlaubt</translation>
         </message>
         <message>
             <source>not sealed by this station</source>
@@ -6145,7 +6165,7 @@
         </message>
         <message>
             <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
-            <translation type="unfinished" >über die {attempts} Versuche hinaus, die der Kurs {course} an allen Stationen zusammen erlaubt</translation>
+            <translation type="unfinished">über die {attempts} Versuche hinaus, die der Kurs {course} an allen Stationen zusammen erlaubt</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -6358,6 +6378,14 @@
         <message>
             <source>{pseudonym!r} looks like a key of this program: choose another pseudonym</source>
             <translation type="unfinished">{pseudonym!r} sieht aus wie ein Schlüssel dieses Programms: Wählen Sie ein anderes Pseudonym</translation>
+        </message>
+        <message>
+            <source>{email!r} is no e-mail address: correct it</source>
+            <translation type="unfinished">{email!r} ist keine E-Mail-Adresse: bitte berichtigen</translation>
+        </message>
+        <message>
+            <source>the {kind} {identifier!r} is that of {holder!r} too: correct one of them</source>
+            <translation type="unfinished">{kind} {identifier!r} gehört auch {holder!r}: eine der beiden Zeilen berichtigen</translation>
         </message>
         <message>
             <source>{pseudonym!r} stands there twice: delete one row</source>
@@ -12011,11 +12039,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>revoked</source>
-            <translation type="unfinished" >widerrufen</translation>
+            <translation type="unfinished">widerrufen</translation>
         </message>
         <message>
             <source> (station {name})</source>
-            <translation type="unfinished" > (Station {name})</translation>
+            <translation type="unfinished"> (Station {name})</translation>
         </message>
         <message>
             <source>Drill: {title}</source>
@@ -15038,11 +15066,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Stations</source>
-            <translation type="unfinished" >Stationen</translation>
+            <translation type="unfinished">Stationen</translation>
         </message>
         <message>
             <source>Bring the results of several stations together</source>
-            <translation type="unfinished" >Die Ergebnisse mehrerer Stationen zusammenführen</translation>
+            <translation type="unfinished">Die Ergebnisse mehrerer Stationen zusammenführen</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -15288,8 +15316,56 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Bericht einer Gruppe</translation>
         </message>
         <message>
+            <source>Mark</source>
+            <translation type="unfinished">Note</translation>
+        </message>
+        <message>
+            <source>points of the best attempt, of 100</source>
+            <translation type="unfinished">Punkte des besten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>points of the first attempt, of 100</source>
+            <translation type="unfinished">Punkte des ersten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>points of the last attempt, of 100</source>
+            <translation type="unfinished">Punkte des letzten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>mean of the points of the last {n} attempts, of 100</source>
+            <translation type="unfinished">Mittel der Punkte der letzten {n} Versuche, von 100</translation>
+        </message>
+        <message>
+            <source>{first} to {last}</source>
+            <translation type="unfinished">{first} bis {last}</translation>
+        </message>
+        <message>
+            <source>Attempts allowed</source>
+            <translation type="unfinished">Erlaubte Versuche</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Noch kein Versuch eines angemeldeten Teilnehmers.</translation>
+        </message>
+        <message>
+            <source>median</source>
+            <translation type="unfinished">Median</translation>
+        </message>
+        <message>
+            <source>✔ passed at least once. In brackets the attempts that count: scored, comparable, by a person, not declared void; – (2): two that do not count.</source>
+            <translation type="unfinished">✔ mindestens einmal bestanden. In Klammern die Versuche, die zählen: bewertet, vergleichbar, von einem Menschen, nicht für ungültig erklärt; – (2): zwei, die nicht zählen.</translation>
+        </message>
+        <message>
+            <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
+            <translation type="unfinished">Die Unterschriften gelten für alle {pages} Seiten: die Noten stehen auf den Seiten nach dieser.</translation>
+        </message>
+        <message>
+            <source>Place, date</source>
+            <translation type="unfinished">Ort, Datum</translation>
+        </message>
+        <message>
+            <source>Head of training</source>
+            <translation type="unfinished">Leitung der Ausbildung</translation>
         </message>
         <message>
             <source>Report of a student</source>
@@ -15306,10 +15382,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>passed</source>
             <translation type="unfinished">bestanden</translation>
-        </message>
-        <message>
-            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">{students}, {exercises}, {attempts}: bewertet, vergleichbar, von einer Person, nicht für ungültig erklärt.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -18633,6 +18705,34 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>best of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>der einzige Versuch</numerusform>
+                <numerusform>bester von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>first of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>der einzige Versuch</numerusform>
+                <numerusform>erster von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>last of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>der einzige Versuch</numerusform>
+                <numerusform>letzter von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>mean of the last {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>der letzte Versuch</numerusform>
+                <numerusform>Mittel der letzten {n} Versuche</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
                 <numerusform>keine DICOM-Serie in {listing_path}: {n} Datei übergangen ({first_path_name}: {first_reason})</numerusform>
@@ -18738,13 +18838,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} exercises</source>
-            <translation type="unfinished">
-                <numerusform>{n} Übung</numerusform>
-                <numerusform>{n} Übungen</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
             <source>{n} files are copies and left out</source>
             <translation type="unfinished">
                 <numerusform>{n} Datei ist eine Kopie und wird ausgelassen</numerusform>
@@ -18787,6 +18880,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paar von Versuchen</numerusform>
+                <numerusform>{n} Paare von Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} people</source>
             <translation type="unfinished">
                 <numerusform>{n} Person</numerusform>
@@ -18819,13 +18919,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Serie, {usable} davon verwendbar</numerusform>
                 <numerusform>{n} Serien, {usable} davon verwendbar</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} students</source>
-            <translation type="unfinished">
-                <numerusform>{n} Teilnehmer</numerusform>
-                <numerusform>{n} Teilnehmer</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19308,11 +19401,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>its signature is not that of the station {name}</source>
-            <translation type="unfinished" >die Signatur ist nicht die der Station {name}</translation>
+            <translation type="unfinished">die Signatur ist nicht die der Station {name}</translation>
         </message>
         <message>
             <source>the instructor has revoked the station that signed it</source>
-            <translation type="unfinished" >der Kursleiter hat die Station widerrufen, die signiert hat</translation>
+            <translation type="unfinished">der Kursleiter hat die Station widerrufen, die signiert hat</translation>
         </message>
         <message>
             <source>the signature beside it is that of another attempt</source>
@@ -19648,183 +19741,303 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
-            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?widerrufen|}</translation>
+            <translation type="unfinished">{name:20} {fingerprint} {revoked:?widerrufen|}</translation>
         </message>
         <message>
             <source>no other station is known here</source>
-            <translation type="unfinished" >keine andere Station ist hier bekannt</translation>
+            <translation type="unfinished">keine andere Station ist hier bekannt</translation>
         </message>
         <message>
             <source>this station is {name}: {fingerprint}</source>
-            <translation type="unfinished" >diese Station heißt {name}: {fingerprint}</translation>
+            <translation type="unfinished">diese Station heißt {name}: {fingerprint}</translation>
         </message>
         <message>
             <source>{name} is revoked: what it signed counts here only once admitted</source>
-            <translation type="unfinished" >{name} ist widerrufen: Was sie signiert hat, zählt hier nur, wenn es anerkannt ist</translation>
+            <translation type="unfinished">{name} ist widerrufen: Was sie signiert hat, zählt hier nur, wenn es anerkannt ist</translation>
         </message>
         <message>
             <source>Print it and lock it away: it opens the station's key in a backup.</source>
-            <translation type="unfinished" >Drucken Sie ihn aus und schließen Sie ihn weg: Er öffnet den Schlüssel der Station in einer Sicherung.</translation>
+            <translation type="unfinished">Drucken Sie ihn aus und schließen Sie ihn weg: Er öffnet den Schlüssel der Station in einer Sicherung.</translation>
         </message>
         <message>
             <source>this station has a new key: {fingerprint}</source>
-            <translation type="unfinished" >diese Station hat einen neuen Schlüssel: {fingerprint}</translation>
+            <translation type="unfinished">diese Station hat einen neuen Schlüssel: {fingerprint}</translation>
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
-            <translation type="unfinished" >{attempts:#1 Versuch|# Versuche} und {remarks:#1 Bemerkung|# Bemerkungen} in {files} geschrieben</translation>
+            <translation type="unfinished">{attempts:#1 Versuch|# Versuche} und {remarks:#1 Bemerkung|# Bemerkungen} in {files} geschrieben</translation>
         </message>
         <message>
             <source>✖ {} is left out: it was altered after it was signed</source>
-            <translation type="unfinished" >✖ {} ist ausgelassen: nach dem Signieren verändert</translation>
+            <translation type="unfinished">✖ {} ist ausgelassen: nach dem Signieren verändert</translation>
         </message>
         <message>
             <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
-            <translation type="unfinished" >{people:#1 Teilnehmer|# Teilnehmer} und {courses:#1 Kurs|# Kurse} in {files} geschrieben</translation>
+            <translation type="unfinished">{people:#1 Teilnehmer|# Teilnehmer} und {courses:#1 Kurs|# Kurse} in {files} geschrieben</translation>
         </message>
         <message>
             <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
-            <translation type="unfinished" >{station}: {attempts:#1 Versuch|# Versuche} hinzugefügt, {present} schon hier, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Teilnehmer|# Teilnehmer}, {courses:#1 Kurs|# Kurse}, {erased} gelöscht, {left_out} als gelöscht ausgelassen</translation>
+            <translation type="unfinished">{station}: {attempts:#1 Versuch|# Versuche} hinzugefügt, {present} schon hier, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Teilnehmer|# Teilnehmer}, {courses:#1 Kurs|# Kurse}, {erased} gelöscht, {left_out} als gelöscht ausgelassen</translation>
         </message>
         <message>
             <source>left out: {line}</source>
-            <translation type="unfinished" >ausgelassen: {line}</translation>
+            <translation type="unfinished">ausgelassen: {line}</translation>
         </message>
         <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
+            <translation type="unfinished">{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
         </message>
         <message>
             <source>cannot take in {source}: {reason} ({place})</source>
-            <translation type="unfinished" >{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
+            <translation type="unfinished">{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
         </message>
         <message>
             <source>the attempt {name} is another record here</source>
-            <translation type="unfinished" >der Versuch {name} ist hier eine andere Aufzeichnung</translation>
+            <translation type="unfinished">der Versuch {name} ist hier eine andere Aufzeichnung</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+            <translation type="unfinished">{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
         </message>
         <message>
             <source>{name} is another file here</source>
-            <translation type="unfinished" >{name} ist hier eine andere Datei</translation>
+            <translation type="unfinished">{name} ist hier eine andere Datei</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+            <translation type="unfinished">{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
         </message>
         <message>
             <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished" >{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
+            <translation type="unfinished">{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} ist bei {name} beschädigt: Holen Sie sie neu von ihrer Station</translation>
+            <translation type="unfinished">{source} ist bei {name} beschädigt: Holen Sie sie neu von ihrer Station</translation>
         </message>
         <message>
             <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
-            <translation type="unfinished" >{source} enthält weder Ergebnisse noch den Kurs einer Station: Schreiben Sie die Datei dort neu mit `acus store results` oder `acus store station`</translation>
+            <translation type="unfinished">{source} enthält weder Ergebnisse noch den Kurs einer Station: Schreiben Sie die Datei dort neu mit `acus store results` oder `acus store station`</translation>
         </message>
         <message>
             <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
-            <translation type="unfinished" >{source} ist eine andere Datei von Acus ({kind!r:.40}): Geben Sie eine an, die `acus store results` oder `acus store station` geschrieben hat</translation>
+            <translation type="unfinished">{source} ist eine andere Datei von Acus ({kind!r:.40}): Geben Sie eine an, die `acus store results` oder `acus store station` geschrieben hat</translation>
         </message>
         <message>
             <source>{source} was written by a newer version of Acus: use that version here too</source>
-            <translation type="unfinished" >{source} stammt von einer neueren Version von Acus: Benutzen Sie diese Version auch hier</translation>
+            <translation type="unfinished">{source} stammt von einer neueren Version von Acus: Benutzen Sie diese Version auch hier</translation>
         </message>
         <message>
             <source>{source} was altered after its station signed it: fetch it anew from the station</source>
-            <translation type="unfinished" >{source} wurde verändert, nachdem die Station signiert hatte: Holen Sie die Datei neu von der Station</translation>
+            <translation type="unfinished">{source} wurde verändert, nachdem die Station signiert hatte: Holen Sie die Datei neu von der Station</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
-            <translation type="unfinished" >{source} kommt von der Station {name}, die der Kursleiter widerrufen hat: Nichts davon wird aufgenommen</translation>
+            <translation type="unfinished">{source} kommt von der Station {name}, die der Kursleiter widerrufen hat: Nichts davon wird aufgenommen</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
-            <translation type="unfinished" >{source} kommt von der Station {name}, die hier mit diesem Schlüssel nicht bekannt ist: Vergleichen Sie {fingerprint} dort mit `acus store stations` und nehmen Sie die Datei dann mit --trust auf</translation>
+            <translation type="unfinished">{source} kommt von der Station {name}, die hier mit diesem Schlüssel nicht bekannt ist: Vergleichen Sie {fingerprint} dort mit `acus store stations` und nehmen Sie die Datei dann mit --trust auf</translation>
         </message>
         <message>
             <source>no station and public key</source>
-            <translation type="unfinished" >keine Station mit öffentlichem Schlüssel</translation>
+            <translation type="unfinished">keine Station mit öffentlichem Schlüssel</translation>
         </message>
         <message>
             <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
-            <translation type="unfinished" >{name!r} kann nicht der Name einer Station sein: nur Buchstaben, Ziffern, Leerzeichen und . _ @ + -, höchstens 40, mit einem Buchstaben oder einer Ziffer am Anfang</translation>
+            <translation type="unfinished">{name!r} kann nicht der Name einer Station sein: nur Buchstaben, Ziffern, Leerzeichen und . _ @ + -, höchstens 40, mit einem Buchstaben oder einer Ziffer am Anfang</translation>
         </message>
         <message>
             <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
-            <translation type="unfinished" >{station!r} ist keine bekannte Station oder mehrere: Geben Sie Namen oder Kennung einer einzigen an; bekannt: {names}</translation>
+            <translation type="unfinished">{station!r} ist keine bekannte Station oder mehrere: Geben Sie Namen oder Kennung einer einzigen an; bekannt: {names}</translation>
         </message>
         <message>
             <source>Bring results of stations together…</source>
-            <translation type="unfinished" >Ergebnisse von Stationen zusammenführen…</translation>
+            <translation type="unfinished">Ergebnisse von Stationen zusammenführen…</translation>
         </message>
         <message>
             <source>Write this station's results…</source>
-            <translation type="unfinished" >Ergebnisse dieser Station schreiben…</translation>
+            <translation type="unfinished">Ergebnisse dieser Station schreiben…</translation>
         </message>
         <message>
             <source>Write the course for a station…</source>
-            <translation type="unfinished" >Kurs für eine Station schreiben…</translation>
+            <translation type="unfinished">Kurs für eine Station schreiben…</translation>
         </message>
         <message>
             <source>Results of stations</source>
-            <translation type="unfinished" >Ergebnisse von Stationen</translation>
+            <translation type="unfinished">Ergebnisse von Stationen</translation>
         </message>
         <message>
             <source>Bringing stations together</source>
-            <translation type="unfinished" >Stationen werden zusammengeführt</translation>
+            <translation type="unfinished">Stationen werden zusammengeführt</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
-            <translation type="unfinished" >Diese Stationen zulassen?</translation>
+            <translation type="unfinished">Diese Stationen zulassen?</translation>
         </message>
         <message>
             <source>Let them in</source>
-            <translation type="unfinished" >Zulassen</translation>
+            <translation type="unfinished">Zulassen</translation>
         </message>
         <message>
             <source>Write this station's results</source>
-            <translation type="unfinished" >Ergebnisse dieser Station schreiben</translation>
+            <translation type="unfinished">Ergebnisse dieser Station schreiben</translation>
         </message>
         <message>
             <source>left out, altered: {names}</source>
-            <translation type="unfinished" >ausgelassen, weil verändert: {names}</translation>
+            <translation type="unfinished">ausgelassen, weil verändert: {names}</translation>
         </message>
         <message>
             <source>Write the course for a station</source>
-            <translation type="unfinished" >Kurs für eine Station schreiben</translation>
+            <translation type="unfinished">Kurs für eine Station schreiben</translation>
         </message>
         <message>
             <source>Writing the course for a station</source>
-            <translation type="unfinished" >Kurs für eine Station wird geschrieben</translation>
+            <translation type="unfinished">Kurs für eine Station wird geschrieben</translation>
         </message>
         <message>
             <source>remarks: {n}</source>
-            <translation type="unfinished" >Bemerkungen: {n}</translation>
+            <translation type="unfinished">Bemerkungen: {n}</translation>
         </message>
         <message>
             <source>new students: {n}</source>
-            <translation type="unfinished" >neue Teilnehmer: {n}</translation>
+            <translation type="unfinished">neue Teilnehmer: {n}</translation>
         </message>
         <message>
             <source>new courses: {n}</source>
-            <translation type="unfinished" >neue Kurse: {n}</translation>
+            <translation type="unfinished">neue Kurse: {n}</translation>
         </message>
         <message>
             <source>persons erased: {n}</source>
-            <translation type="unfinished" >gelöschte Personen: {n}</translation>
+            <translation type="unfinished">gelöschte Personen: {n}</translation>
         </message>
         <message>
             <source>left out as erased: {n}</source>
-            <translation type="unfinished" >als gelöscht ausgelassen: {n}</translation>
+            <translation type="unfinished">als gelöscht ausgelassen: {n}</translation>
         </message>
         <message>
             <source>Files of stations (*.acus)</source>
-            <translation type="unfinished" >Dateien von Stationen (*.acus)</translation>
+            <translation type="unfinished">Dateien von Stationen (*.acus)</translation>
+        </message>
+        <message>
+            <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>
+            <translation type="unfinished">{rule!r} ist keine Regel für Noten: best, first, last nehmen, oder mean:3 für das Mittel der letzten drei</translation>
+        </message>
+        <message>
+            <source>no {kind} is known of {students}: give it by a roster with the column {kind}, or choose another identifier</source>
+            <translation type="unfinished">von {students} ist kein Eintrag {kind} bekannt: ihn mit einer Teilnehmerliste mit der Spalte {kind} angeben, oder eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>Moodle changes {identifiers} as it imports, for it begins with = + - or @: choose another identifier</source>
+            <translation type="unfinished">Moodle verändert {identifiers} beim Import, denn es beginnt mit = + - oder @: eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>{students} have the same {kind}, {identifier!r}: correct it by a roster, or choose another identifier</source>
+            <translation type="unfinished">{students} haben denselben Eintrag {kind}, {identifier!r}: ihn mit einer Teilnehmerliste berichtigen, oder eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>the best of several attempts lies above what a student usually does: the best of 5 equal attempts by {share:.1f} standard deviations; how much attempts vary here is not known yet ({pairs})</source>
+            <translation type="unfinished">der beste von mehreren Versuchen liegt über dem, was jemand gewöhnlich leistet: der beste von 5 gleich guten um {share:.1f} Standardabweichungen; wie stark Versuche hier schwanken, ist noch nicht bekannt ({pairs})</translation>
+        </message>
+        <message>
+            <source>attempts of one student vary by {sd:.1f} points from one to the next (standard deviation, {pairs})</source>
+            <translation type="unfinished">Versuche einer Person schwanken von einem zum nächsten um {sd:.1f} Punkte (Standardabweichung, {pairs})</translation>
+        </message>
+        <message>
+            <source>so the best of 5 equal attempts is expected {five:.1f} points above their mean, and these grades {mean:.1f} on average, up to {high:.1f} for {attempts} attempts: who tries more often is graded higher without being better</source>
+            <translation type="unfinished">so liegt der beste von 5 gleich guten Versuchen im Mittel {five:.1f} Punkte über ihrem Durchschnitt, und diese Noten im Schnitt {mean:.1f}, bis zu {high:.1f} bei {attempts} Versuchen: wer es öfter versucht, wird höher benotet, ohne besser zu sein</translation>
+        </message>
+        <message>
+            <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
+            <translation type="unfinished">so ist eine Note nach dieser Regel um {sd:.1f} Punkte unsicher, und sie steigt nicht durch Zufall mit der Zahl der Versuche</translation>
+        </message>
+        <message>
+            <source>not passed yet</source>
+            <translation type="unfinished">noch nicht bestanden</translation>
+        </message>
+        <message>
+            <source>the instructor: {comment}</source>
+            <translation type="unfinished">der Kursleiter: {comment}</translation>
+        </message>
+        <message>
+            <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
+            <translation type="unfinished">{address!r} kann nicht am Anfang der Kennungen von Aussagen stehen: eine eigene Adresse angeben, etwa https://training.hospital.example</translation>
+        </message>
+        <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} enthält dasselbe wie eine andere: eine löschen</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">Zeile 1: das ist eine Tabelle von Moodle ohne Anmeldenamen und ID-Nummern, und der Bildschirm zeigt weder Namen noch E-Mail-Adressen: eine Spalte pseudonym hinzufügen, oder sie mit dem Anmeldenamen exportieren</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Überschrift braucht die Spalte pseudonym; Spalten sind {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} ist nicht bekannt; Spalten sind {wanted}</translation>
+        </message>
+        <message>
+            <source>{path} is damaged: move it away, and put the statements into the queue again</source>
+            <translation type="unfinished">{path} ist beschädigt: die Datei wegräumen und die Aussagen erneut in die Warteschlange stellen</translation>
+        </message>
+        <message>
+            <source>Report of the group</source>
+            <translation type="unfinished">Bericht der Gruppe</translation>
+        </message>
+        <message>
+            <source>Gradebook for Moodle</source>
+            <translation type="unfinished">Notenbuch für Moodle</translation>
+        </message>
+        <message>
+            <source>the best attempt</source>
+            <translation type="unfinished">der beste Versuch</translation>
+        </message>
+        <message>
+            <source>the first attempt</source>
+            <translation type="unfinished">der erste Versuch</translation>
+        </message>
+        <message>
+            <source>the last attempt</source>
+            <translation type="unfinished">der letzte Versuch</translation>
+        </message>
+        <message>
+            <source>the mean of the last attempts</source>
+            <translation type="unfinished">das Mittel der letzten Versuche</translation>
+        </message>
+        <message>
+            <source>A column of feedback too</source>
+            <translation type="unfinished">Auch eine Spalte mit Rückmeldung</translation>
+        </message>
+        <message>
+            <source>user name (else the pseudonym)</source>
+            <translation type="unfinished">Anmeldename (sonst das Pseudonym)</translation>
+        </message>
+        <message>
+            <source>e-mail address</source>
+            <translation type="unfinished">E-Mail-Adresse</translation>
+        </message>
+        <message>
+            <source>ID number</source>
+            <translation type="unfinished">ID-Nummer</translation>
+        </message>
+        <message>
+            <source>empty: a line to fill in by hand</source>
+            <translation type="unfinished">leer: eine Linie zum Ausfüllen von Hand</translation>
+        </message>
+        <message>
+            <source>A mark is</source>
+            <translation type="unfinished">Eine Note ist</translation>
+        </message>
+        <message>
+            <source>How many</source>
+            <translation type="unfinished">Wie viele</translation>
+        </message>
+        <message>
+            <source>Moodle knows students by</source>
+            <translation type="unfinished">Moodle kennt Teilnehmer nach</translation>
         </message>
     </context>
 </TS>

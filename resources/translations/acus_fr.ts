@@ -996,8 +996,28 @@
             <translation type="unfinished">--student vaut pour pdf ; les tableaux contiennent tout le monde</translation>
         </message>
         <message>
+            <source>{identifier}: Moodle knows students by username, email or idnumber</source>
+            <translation type="unfinished">{identifier} : Moodle connaît les étudiants par username, email ou idnumber</translation>
+        </message>
+        <message>
+            <source>--identifier and --feedback are for moodle, --grade for moodle and pdf</source>
+            <translation type="unfinished">--identifier et --feedback valent pour moodle, --grade pour moodle et pdf</translation>
+        </message>
+        <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
             <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} de {students:#1 étudiant|# étudiants|0 étudiant} dans {files}</translation>
+        </message>
+        <message>
+            <source>nothing to do: give --out FILE, --queue, or both</source>
+            <translation type="unfinished">rien à faire : donner --out FICHIER, --queue, ou les deux</translation>
+        </message>
+        <message>
+            <source>{statements:#1 statement|# statements}{files:?, written to {files}|}</source>
+            <translation type="unfinished">{statements:#1 déclaration|# déclarations}{files:?, dans {files}|}</translation>
+        </message>
+        <message>
+            <source>queue: {new:#} new, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">file d’attente : {new:#} de plus, {waiting:#1 attend|# attendent} l’envoi</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
@@ -5581,7 +5601,7 @@
         </message>
         <message>
             <source>beyond the attempts that the course allows</source>
-            <translation type="unfinished" >au-delà des essais que le cours autorise</translation>
+            <translation type="unfinished">au-delà des essais que le cours autorise</translation>
         </message>
         <message>
             <source>not sealed by this station</source>
@@ -6145,7 +6165,7 @@
         </message>
         <message>
             <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
-            <translation type="unfinished" >au-delà des {attempts} essais que le cours {course} autorise sur tous les postes réunis</translation>
+            <translation type="unfinished">au-delà des {attempts} essais que le cours {course} autorise sur tous les postes réunis</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -6358,6 +6378,14 @@
         <message>
             <source>{pseudonym!r} looks like a key of this program: choose another pseudonym</source>
             <translation type="unfinished">{pseudonym!r} ressemble à une clé de ce programme : choisissez un autre pseudonyme</translation>
+        </message>
+        <message>
+            <source>{email!r} is no e-mail address: correct it</source>
+            <translation type="unfinished">{email!r} n’est pas une adresse de courriel : à corriger</translation>
+        </message>
+        <message>
+            <source>the {kind} {identifier!r} is that of {holder!r} too: correct one of them</source>
+            <translation type="unfinished">{kind} {identifier!r} est aussi à {holder!r} : corriger l’une des deux lignes</translation>
         </message>
         <message>
             <source>{pseudonym!r} stands there twice: delete one row</source>
@@ -12011,11 +12039,11 @@ Lettres : directions du patient
         </message>
         <message>
             <source>revoked</source>
-            <translation type="unfinished" >révoqué</translation>
+            <translation type="unfinished">révoqué</translation>
         </message>
         <message>
             <source> (station {name})</source>
-            <translation type="unfinished" > (poste {name})</translation>
+            <translation type="unfinished"> (poste {name})</translation>
         </message>
         <message>
             <source>Drill: {title}</source>
@@ -15038,11 +15066,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Stations</source>
-            <translation type="unfinished" >Postes</translation>
+            <translation type="unfinished">Postes</translation>
         </message>
         <message>
             <source>Bring the results of several stations together</source>
-            <translation type="unfinished" >Réunir les résultats de plusieurs postes</translation>
+            <translation type="unfinished">Réunir les résultats de plusieurs postes</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -15288,8 +15316,56 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rapport d’un groupe</translation>
         </message>
         <message>
+            <source>Mark</source>
+            <translation type="unfinished">Note</translation>
+        </message>
+        <message>
+            <source>points of the best attempt, of 100</source>
+            <translation type="unfinished">points du meilleur essai, sur 100</translation>
+        </message>
+        <message>
+            <source>points of the first attempt, of 100</source>
+            <translation type="unfinished">points du premier essai, sur 100</translation>
+        </message>
+        <message>
+            <source>points of the last attempt, of 100</source>
+            <translation type="unfinished">points du dernier essai, sur 100</translation>
+        </message>
+        <message>
+            <source>mean of the points of the last {n} attempts, of 100</source>
+            <translation type="unfinished">moyenne des points des {n} derniers essais, sur 100</translation>
+        </message>
+        <message>
+            <source>{first} to {last}</source>
+            <translation type="unfinished">{first} au {last}</translation>
+        </message>
+        <message>
+            <source>Attempts allowed</source>
+            <translation type="unfinished">Essais permis</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Pas encore d’essai d’un étudiant connecté.</translation>
+        </message>
+        <message>
+            <source>median</source>
+            <translation type="unfinished">médiane</translation>
+        </message>
+        <message>
+            <source>✔ passed at least once. In brackets the attempts that count: scored, comparable, by a person, not declared void; – (2): two that do not count.</source>
+            <translation type="unfinished">✔ réussi au moins une fois. Entre parenthèses les essais qui comptent : notés, comparables, faits par une personne, non déclarés nuls ; – (2) : deux qui ne comptent pas.</translation>
+        </message>
+        <message>
+            <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
+            <translation type="unfinished">Les signatures valent pour les {pages} pages : les notes sont sur celles qui suivent.</translation>
+        </message>
+        <message>
+            <source>Place, date</source>
+            <translation type="unfinished">Lieu, date</translation>
+        </message>
+        <message>
+            <source>Head of training</source>
+            <translation type="unfinished">Responsable de la formation</translation>
         </message>
         <message>
             <source>Report of a student</source>
@@ -15306,10 +15382,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>passed</source>
             <translation type="unfinished">réussi</translation>
-        </message>
-        <message>
-            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">{students}, {exercises}, {attempts} : notés, comparables, par une personne, non déclarés nuls.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -18633,6 +18705,34 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>best of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>l’unique essai</numerusform>
+                <numerusform>meilleur de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>first of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>l’unique essai</numerusform>
+                <numerusform>premier de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>last of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>l’unique essai</numerusform>
+                <numerusform>dernier de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>mean of the last {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>le dernier essai</numerusform>
+                <numerusform>moyenne des {n} derniers essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
                 <numerusform>aucune série DICOM dans {listing_path} : {n} fichier ignoré ({first_path_name} : {first_reason})</numerusform>
@@ -18738,13 +18838,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} exercises</source>
-            <translation type="unfinished">
-                <numerusform>{n} exercice</numerusform>
-                <numerusform>{n} exercices</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
             <source>{n} files are copies and left out</source>
             <translation type="unfinished">
                 <numerusform>{n} fichier est une copie et est écarté</numerusform>
@@ -18787,6 +18880,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} paire d’essais</numerusform>
+                <numerusform>{n} paires d’essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} people</source>
             <translation type="unfinished">
                 <numerusform>{n} personne</numerusform>
@@ -18819,13 +18919,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} série, dont {usable} utilisable</numerusform>
                 <numerusform>{n} séries, dont {usable} utilisables</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} students</source>
-            <translation type="unfinished">
-                <numerusform>{n} étudiant</numerusform>
-                <numerusform>{n} étudiants</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19308,11 +19401,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>its signature is not that of the station {name}</source>
-            <translation type="unfinished" >la signature n’est pas celle du poste {name}</translation>
+            <translation type="unfinished">la signature n’est pas celle du poste {name}</translation>
         </message>
         <message>
             <source>the instructor has revoked the station that signed it</source>
-            <translation type="unfinished" >le formateur a révoqué le poste qui l’a signé</translation>
+            <translation type="unfinished">le formateur a révoqué le poste qui l’a signé</translation>
         </message>
         <message>
             <source>the signature beside it is that of another attempt</source>
@@ -19648,183 +19741,303 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
-            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?révoqué|}</translation>
+            <translation type="unfinished">{name:20} {fingerprint} {revoked:?révoqué|}</translation>
         </message>
         <message>
             <source>no other station is known here</source>
-            <translation type="unfinished" >aucun autre poste n’est connu ici</translation>
+            <translation type="unfinished">aucun autre poste n’est connu ici</translation>
         </message>
         <message>
             <source>this station is {name}: {fingerprint}</source>
-            <translation type="unfinished" >ce poste est {name} : {fingerprint}</translation>
+            <translation type="unfinished">ce poste est {name} : {fingerprint}</translation>
         </message>
         <message>
             <source>{name} is revoked: what it signed counts here only once admitted</source>
-            <translation type="unfinished" >{name} est révoqué : ce qu’il a signé ne compte ici qu’une fois admis</translation>
+            <translation type="unfinished">{name} est révoqué : ce qu’il a signé ne compte ici qu’une fois admis</translation>
         </message>
         <message>
             <source>Print it and lock it away: it opens the station's key in a backup.</source>
-            <translation type="unfinished" >Imprimez-la et mettez-la sous clé : elle ouvre la clé du poste dans une sauvegarde.</translation>
+            <translation type="unfinished">Imprimez-la et mettez-la sous clé : elle ouvre la clé du poste dans une sauvegarde.</translation>
         </message>
         <message>
             <source>this station has a new key: {fingerprint}</source>
-            <translation type="unfinished" >ce poste a une nouvelle clé : {fingerprint}</translation>
+            <translation type="unfinished">ce poste a une nouvelle clé : {fingerprint}</translation>
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
-            <translation type="unfinished" >{attempts:#1 essai|# essais|0 essai} et {remarks:#1 remarque|# remarques|0 remarque} dans {files}</translation>
+            <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} et {remarks:#1 remarque|# remarques|0 remarque} dans {files}</translation>
         </message>
         <message>
             <source>✖ {} is left out: it was altered after it was signed</source>
-            <translation type="unfinished" >✖ {} est omis : altéré après la signature</translation>
+            <translation type="unfinished">✖ {} est omis : altéré après la signature</translation>
         </message>
         <message>
             <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
-            <translation type="unfinished" >{people:#1 étudiant|# étudiants|0 étudiant} et {courses:#1 cours|# cours|0 cours} dans {files}</translation>
+            <translation type="unfinished">{people:#1 étudiant|# étudiants|0 étudiant} et {courses:#1 cours|# cours|0 cours} dans {files}</translation>
         </message>
         <message>
             <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
-            <translation type="unfinished" >{station} : {attempts:#1 essai ajouté|# essais ajoutés|0 essai ajouté}, {present} déjà ici, {remarks:#1 remarque|# remarques|0 remarque}, {people:#1 étudiant|# étudiants|0 étudiant}, {courses:#1 cours|# cours|0 cours}, {erased} effacés, {left_out} omis car effacés</translation>
+            <translation type="unfinished">{station} : {attempts:#1 essai ajouté|# essais ajoutés|0 essai ajouté}, {present} déjà ici, {remarks:#1 remarque|# remarques|0 remarque}, {people:#1 étudiant|# étudiants|0 étudiant}, {courses:#1 cours|# cours|0 cours}, {erased} effacés, {left_out} omis car effacés</translation>
         </message>
         <message>
             <source>left out: {line}</source>
-            <translation type="unfinished" >omis : {line}</translation>
+            <translation type="unfinished">omis : {line}</translation>
         </message>
         <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
+            <translation type="unfinished">{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
         </message>
         <message>
             <source>cannot take in {source}: {reason} ({place})</source>
-            <translation type="unfinished" >impossible de prendre {source} : {reason} ({place})</translation>
+            <translation type="unfinished">impossible de prendre {source} : {reason} ({place})</translation>
         </message>
         <message>
             <source>the attempt {name} is another record here</source>
-            <translation type="unfinished" >l’essai {name} est ici un autre enregistrement</translation>
+            <translation type="unfinished">l’essai {name} est ici un autre enregistrement</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
+            <translation type="unfinished">{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
         </message>
         <message>
             <source>{name} is another file here</source>
-            <translation type="unfinished" >{name} est ici un autre fichier</translation>
+            <translation type="unfinished">{name} est ici un autre fichier</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
+            <translation type="unfinished">{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
         </message>
         <message>
             <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished" >{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
+            <translation type="unfinished">{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} est endommagé à {name} : reprenez-le sur son poste</translation>
+            <translation type="unfinished">{source} est endommagé à {name} : reprenez-le sur son poste</translation>
         </message>
         <message>
             <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
-            <translation type="unfinished" >{source} ne contient ni résultats ni cours d’un poste : écrivez-le de nouveau là-bas avec `acus store results` ou `acus store station`</translation>
+            <translation type="unfinished">{source} ne contient ni résultats ni cours d’un poste : écrivez-le de nouveau là-bas avec `acus store results` ou `acus store station`</translation>
         </message>
         <message>
             <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
-            <translation type="unfinished" >{source} est un autre fichier d’Acus ({kind!r:.40}) : donnez-en un écrit par `acus store results` ou `acus store station`</translation>
+            <translation type="unfinished">{source} est un autre fichier d’Acus ({kind!r:.40}) : donnez-en un écrit par `acus store results` ou `acus store station`</translation>
         </message>
         <message>
             <source>{source} was written by a newer version of Acus: use that version here too</source>
-            <translation type="unfinished" >{source} a été écrit par une version plus récente d’Acus : utilisez-la ici aussi</translation>
+            <translation type="unfinished">{source} a été écrit par une version plus récente d’Acus : utilisez-la ici aussi</translation>
         </message>
         <message>
             <source>{source} was altered after its station signed it: fetch it anew from the station</source>
-            <translation type="unfinished" >{source} a été altéré après la signature du poste : reprenez-le sur le poste</translation>
+            <translation type="unfinished">{source} a été altéré après la signature du poste : reprenez-le sur le poste</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
-            <translation type="unfinished" >{source} vient du poste {name}, que le formateur a révoqué : rien n’en est pris</translation>
+            <translation type="unfinished">{source} vient du poste {name}, que le formateur a révoqué : rien n’en est pris</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
-            <translation type="unfinished" >{source} vient du poste {name}, qui n’est pas connu ici par cette clé : comparez {fingerprint} avec `acus store stations` là-bas, puis prenez-le avec --trust</translation>
+            <translation type="unfinished">{source} vient du poste {name}, qui n’est pas connu ici par cette clé : comparez {fingerprint} avec `acus store stations` là-bas, puis prenez-le avec --trust</translation>
         </message>
         <message>
             <source>no station and public key</source>
-            <translation type="unfinished" >ni poste ni clé publique</translation>
+            <translation type="unfinished">ni poste ni clé publique</translation>
         </message>
         <message>
             <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
-            <translation type="unfinished" >{name!r} ne peut pas être le nom d’un poste : lettres, chiffres, espaces et . _ @ + - seulement, 40 au plus, en commençant par une lettre ou un chiffre</translation>
+            <translation type="unfinished">{name!r} ne peut pas être le nom d’un poste : lettres, chiffres, espaces et . _ @ + - seulement, 40 au plus, en commençant par une lettre ou un chiffre</translation>
         </message>
         <message>
             <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
-            <translation type="unfinished" >{station!r} n’est pas un poste connu, ou en désigne plusieurs : donnez le nom ou l’identifiant d’un seul ; connus : {names}</translation>
+            <translation type="unfinished">{station!r} n’est pas un poste connu, ou en désigne plusieurs : donnez le nom ou l’identifiant d’un seul ; connus : {names}</translation>
         </message>
         <message>
             <source>Bring results of stations together…</source>
-            <translation type="unfinished" >Réunir les résultats de plusieurs postes…</translation>
+            <translation type="unfinished">Réunir les résultats de plusieurs postes…</translation>
         </message>
         <message>
             <source>Write this station's results…</source>
-            <translation type="unfinished" >Écrire les résultats de ce poste…</translation>
+            <translation type="unfinished">Écrire les résultats de ce poste…</translation>
         </message>
         <message>
             <source>Write the course for a station…</source>
-            <translation type="unfinished" >Écrire le cours pour un poste…</translation>
+            <translation type="unfinished">Écrire le cours pour un poste…</translation>
         </message>
         <message>
             <source>Results of stations</source>
-            <translation type="unfinished" >Résultats de postes</translation>
+            <translation type="unfinished">Résultats de postes</translation>
         </message>
         <message>
             <source>Bringing stations together</source>
-            <translation type="unfinished" >Réunion des postes</translation>
+            <translation type="unfinished">Réunion des postes</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
-            <translation type="unfinished" >Admettre ces postes ?</translation>
+            <translation type="unfinished">Admettre ces postes ?</translation>
         </message>
         <message>
             <source>Let them in</source>
-            <translation type="unfinished" >Admettre</translation>
+            <translation type="unfinished">Admettre</translation>
         </message>
         <message>
             <source>Write this station's results</source>
-            <translation type="unfinished" >Écrire les résultats de ce poste</translation>
+            <translation type="unfinished">Écrire les résultats de ce poste</translation>
         </message>
         <message>
             <source>left out, altered: {names}</source>
-            <translation type="unfinished" >omis, car altérés : {names}</translation>
+            <translation type="unfinished">omis, car altérés : {names}</translation>
         </message>
         <message>
             <source>Write the course for a station</source>
-            <translation type="unfinished" >Écrire le cours pour un poste</translation>
+            <translation type="unfinished">Écrire le cours pour un poste</translation>
         </message>
         <message>
             <source>Writing the course for a station</source>
-            <translation type="unfinished" >Écriture du cours pour un poste</translation>
+            <translation type="unfinished">Écriture du cours pour un poste</translation>
         </message>
         <message>
             <source>remarks: {n}</source>
-            <translation type="unfinished" >remarques : {n}</translation>
+            <translation type="unfinished">remarques : {n}</translation>
         </message>
         <message>
             <source>new students: {n}</source>
-            <translation type="unfinished" >nouveaux étudiants : {n}</translation>
+            <translation type="unfinished">nouveaux étudiants : {n}</translation>
         </message>
         <message>
             <source>new courses: {n}</source>
-            <translation type="unfinished" >nouveaux cours : {n}</translation>
+            <translation type="unfinished">nouveaux cours : {n}</translation>
         </message>
         <message>
             <source>persons erased: {n}</source>
-            <translation type="unfinished" >personnes effacées : {n}</translation>
+            <translation type="unfinished">personnes effacées : {n}</translation>
         </message>
         <message>
             <source>left out as erased: {n}</source>
-            <translation type="unfinished" >omis car effacés : {n}</translation>
+            <translation type="unfinished">omis car effacés : {n}</translation>
         </message>
         <message>
             <source>Files of stations (*.acus)</source>
-            <translation type="unfinished" >Fichiers de postes (*.acus)</translation>
+            <translation type="unfinished">Fichiers de postes (*.acus)</translation>
+        </message>
+        <message>
+            <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>
+            <translation type="unfinished">{rule!r} n’est pas une règle de notation : prendre best, first, last, ou mean:3 pour la moyenne des trois derniers</translation>
+        </message>
+        <message>
+            <source>no {kind} is known of {students}: give it by a roster with the column {kind}, or choose another identifier</source>
+            <translation type="unfinished">aucun champ {kind} connu pour {students} : le donner par une liste avec la colonne {kind}, ou choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>Moodle changes {identifiers} as it imports, for it begins with = + - or @: choose another identifier</source>
+            <translation type="unfinished">Moodle modifie {identifiers} à l’importation, car le début est = + - ou @ : choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>{students} have the same {kind}, {identifier!r}: correct it by a roster, or choose another identifier</source>
+            <translation type="unfinished">{students} ont le même champ {kind}, {identifier!r} : le corriger par une liste, ou choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>the best of several attempts lies above what a student usually does: the best of 5 equal attempts by {share:.1f} standard deviations; how much attempts vary here is not known yet ({pairs})</source>
+            <translation type="unfinished">le meilleur de plusieurs essais dépasse ce qu’un étudiant fait d’ordinaire : le meilleur de 5 essais égaux de {share:.1f} écarts-types ; combien les essais varient ici n’est pas encore connu ({pairs})</translation>
+        </message>
+        <message>
+            <source>attempts of one student vary by {sd:.1f} points from one to the next (standard deviation, {pairs})</source>
+            <translation type="unfinished">les essais d’un étudiant varient de {sd:.1f} points d’un essai au suivant (écart-type, {pairs})</translation>
+        </message>
+        <message>
+            <source>so the best of 5 equal attempts is expected {five:.1f} points above their mean, and these grades {mean:.1f} on average, up to {high:.1f} for {attempts} attempts: who tries more often is graded higher without being better</source>
+            <translation type="unfinished">le meilleur de 5 essais égaux est donc attendu {five:.1f} points au-dessus de leur moyenne, et ces notes {mean:.1f} en moyenne, jusqu’à {high:.1f} pour {attempts} essais : qui essaie plus souvent est noté plus haut sans être meilleur</translation>
+        </message>
+        <message>
+            <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
+            <translation type="unfinished">une note selon cette règle est donc incertaine de {sd:.1f} points, et ne monte pas par hasard avec le nombre d’essais</translation>
+        </message>
+        <message>
+            <source>not passed yet</source>
+            <translation type="unfinished">pas encore réussi</translation>
+        </message>
+        <message>
+            <source>the instructor: {comment}</source>
+            <translation type="unfinished">le formateur : {comment}</translation>
+        </message>
+        <message>
+            <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
+            <translation type="unfinished">{address!r} ne peut pas commencer les identifiants des déclarations : donner une adresse qui vous appartient, comme https://training.hospital.example</translation>
+        </message>
+        <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} contient la même chose qu’une autre : en supprimer une</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">ligne 1 : c’est une table de Moodle sans noms d’utilisateur ni numéros d’identification, et l’écran ne montre ni noms ni adresses de courriel : ajouter une colonne pseudonym, ou l’exporter avec le nom d’utilisateur</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : l’en-tête doit avoir la colonne pseudonym ; les colonnes sont {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} n’est pas connue ; les colonnes sont {wanted}</translation>
+        </message>
+        <message>
+            <source>{path} is damaged: move it away, and put the statements into the queue again</source>
+            <translation type="unfinished">{path} est endommagé : le retirer, et remettre les déclarations dans la file d’attente</translation>
+        </message>
+        <message>
+            <source>Report of the group</source>
+            <translation type="unfinished">Rapport du groupe</translation>
+        </message>
+        <message>
+            <source>Gradebook for Moodle</source>
+            <translation type="unfinished">Carnet de notes pour Moodle</translation>
+        </message>
+        <message>
+            <source>the best attempt</source>
+            <translation type="unfinished">le meilleur essai</translation>
+        </message>
+        <message>
+            <source>the first attempt</source>
+            <translation type="unfinished">le premier essai</translation>
+        </message>
+        <message>
+            <source>the last attempt</source>
+            <translation type="unfinished">le dernier essai</translation>
+        </message>
+        <message>
+            <source>the mean of the last attempts</source>
+            <translation type="unfinished">la moyenne des derniers essais</translation>
+        </message>
+        <message>
+            <source>A column of feedback too</source>
+            <translation type="unfinished">Avec une colonne de commentaires</translation>
+        </message>
+        <message>
+            <source>user name (else the pseudonym)</source>
+            <translation type="unfinished">nom d’utilisateur (sinon le pseudonyme)</translation>
+        </message>
+        <message>
+            <source>e-mail address</source>
+            <translation type="unfinished">adresse de courriel</translation>
+        </message>
+        <message>
+            <source>ID number</source>
+            <translation type="unfinished">numéro d’identification</translation>
+        </message>
+        <message>
+            <source>empty: a line to fill in by hand</source>
+            <translation type="unfinished">vide : une ligne à remplir à la main</translation>
+        </message>
+        <message>
+            <source>A mark is</source>
+            <translation type="unfinished">Une note est</translation>
+        </message>
+        <message>
+            <source>How many</source>
+            <translation type="unfinished">Combien</translation>
+        </message>
+        <message>
+            <source>Moodle knows students by</source>
+            <translation type="unfinished">Moodle connaît les étudiants par</translation>
         </message>
     </context>
 </TS>
