@@ -290,16 +290,18 @@ def _feedback(rule: GradeRule, attempts: Sequence[Indexed], remarks: Mapping[str
     """Say how a grade came about, and what the instructor said of what makes it."""
     if not attempts:
         return ""
+    n, taken = len(attempts), len(rule.taken(attempts))
     of_how_many = {
-        Rule.BEST: counted("the only attempt", "best of {n} attempts", len(attempts)),
-        Rule.FIRST: counted("the only attempt", "first of {n} attempts", len(attempts)),
-        Rule.LAST: counted("the only attempt", "last of {n} attempts", len(attempts)),
-        Rule.MEAN: counted(
-            "the last attempt", "mean of the last {n} attempts", len(rule.taken(attempts))
-        ),
+        Rule.BEST: counted("best of {n} attempt", "best of {n} attempts", n),
+        Rule.FIRST: counted("first of {n} attempt", "first of {n} attempts", n),
+        Rule.LAST: counted("last of {n} attempt", "last of {n} attempts", n),
+        Rule.MEAN: counted("mean of the last {n} attempt", "mean of the last {n} attempts", taken),
     }[rule.rule]
     passed = any(attempt.passed for attempt in attempts)
-    parts = [of_how_many, sentence("passed") if passed else sentence("not passed yet")]
+    parts = [
+        sentence("the only attempt") if n == 1 else of_how_many,
+        sentence("passed") if passed else sentence("not passed yet"),
+    ]
     parts += [
         sentence("the instructor: {comment}", comment=" ".join(comment.split()))
         for attempt in rule.taken(attempts)

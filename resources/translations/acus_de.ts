@@ -18707,28 +18707,28 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message numerus="yes">
             <source>best of {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>der einzige Versuch</numerusform>
+                <numerusform>bester von {n} Versuch</numerusform>
                 <numerusform>bester von {n} Versuchen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>first of {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>der einzige Versuch</numerusform>
+                <numerusform>erster von {n} Versuch</numerusform>
                 <numerusform>erster von {n} Versuchen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>last of {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>der einzige Versuch</numerusform>
+                <numerusform>letzter von {n} Versuch</numerusform>
                 <numerusform>letzter von {n} Versuchen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>mean of the last {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>der letzte Versuch</numerusform>
+                <numerusform>Mittel des letzten {n} Versuchs</numerusform>
                 <numerusform>Mittel der letzten {n} Versuche</numerusform>
             </translation>
         </message>
@@ -19950,6 +19950,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
             <translation type="unfinished">so ist eine Note nach dieser Regel um {sd:.1f} Punkte unsicher, und sie steigt nicht durch Zufall mit der Zahl der Versuche</translation>
+        </message>
+        <message>
+            <source>the only attempt</source>
+            <translation type="unfinished">der einzige Versuch</translation>
         </message>
         <message>
             <source>not passed yet</source>

@@ -18707,28 +18707,28 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message numerus="yes">
             <source>best of {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>l’unique essai</numerusform>
+                <numerusform>meilleur de {n} essai</numerusform>
                 <numerusform>meilleur de {n} essais</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>first of {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>l’unique essai</numerusform>
+                <numerusform>premier de {n} essai</numerusform>
                 <numerusform>premier de {n} essais</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>last of {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>l’unique essai</numerusform>
+                <numerusform>dernier de {n} essai</numerusform>
                 <numerusform>dernier de {n} essais</numerusform>
             </translation>
         </message>
         <message numerus="yes">
             <source>mean of the last {n} attempts</source>
             <translation type="unfinished">
-                <numerusform>le dernier essai</numerusform>
+                <numerusform>moyenne du dernier {n} essai</numerusform>
                 <numerusform>moyenne des {n} derniers essais</numerusform>
             </translation>
         </message>
@@ -19950,6 +19950,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
             <translation type="unfinished">une note selon cette règle est donc incertaine de {sd:.1f} points, et ne monte pas par hasard avec le nombre d’essais</translation>
+        </message>
+        <message>
+            <source>the only attempt</source>
+            <translation type="unfinished">l’unique essai</translation>
         </message>
         <message>
             <source>not passed yet</source>
