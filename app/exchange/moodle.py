@@ -42,7 +42,7 @@ _UNFIT: Final = ("=", "+", "-", "@")
 _HIDING: Final = re.compile(r'\\(?="|$)', re.MULTILINE)
 
 
-class Rule(StrEnum):
+class GradeFrom(StrEnum):
     """Which attempts make the grade."""
 
     BEST = "best"
@@ -60,7 +60,7 @@ class GradeRule:
         last: of the mean: over so many of the last ones, or over all where there are fewer.
     """
 
-    rule: Rule = Rule.BEST
+    rule: GradeFrom = GradeFrom.BEST
     last: int = 0
 
     @classmethod
@@ -71,10 +71,10 @@ class GradeRule:
             ExportError: if it is none of them.
         """
         name, _, count = text.strip().casefold().partition(":")
-        if name in (Rule.BEST, Rule.FIRST, Rule.LAST) and not count:
-            return cls(Rule(name))
-        if name == Rule.MEAN and count.isdecimal() and 1 <= int(count) <= 1000:
-            return cls(Rule.MEAN, int(count))
+        if name in (GradeFrom.BEST, GradeFrom.FIRST, GradeFrom.LAST) and not count:
+            return cls(GradeFrom(name))
+        if name == GradeFrom.MEAN and count.isdecimal() and 1 <= int(count) <= 1000:
+            return cls(GradeFrom.MEAN, int(count))
         raise ExportError(
             sentence(
                 "{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean "
@@ -85,17 +85,17 @@ class GradeRule:
 
     def __str__(self) -> str:
         """Return it as `of` reads it."""
-        return f"{self.rule}:{self.last}" if self.rule is Rule.MEAN else str(self.rule)
+        return f"{self.rule}:{self.last}" if self.rule is GradeFrom.MEAN else str(self.rule)
 
     def taken(self, attempts: Sequence[Indexed]) -> Sequence[Indexed]:
         """Return the attempts that make the grade, of those that count, oldest first."""
         if not attempts:
             return ()
-        if self.rule is Rule.BEST:
+        if self.rule is GradeFrom.BEST:
             return (max(attempts, key=lambda attempt: attempt.total or 0.0),)
-        if self.rule is Rule.FIRST:
+        if self.rule is GradeFrom.FIRST:
             return attempts[:1]
-        return attempts[-self.last :] if self.rule is Rule.MEAN else attempts[-1:]
+        return attempts[-self.last :] if self.rule is GradeFrom.MEAN else attempts[-1:]
 
     def grade(self, attempts: Sequence[Indexed]) -> float | None:
         """Return the grade, 0 to 100; None without an attempt."""
@@ -221,7 +221,7 @@ def chance_words(board: ProgressBoard, rule: GradeRule) -> str:
     some = [attempts for attempts in board.counted.values() if attempts]
     spread = spread_of(board)
     if spread.sd is None:
-        if rule.rule is not Rule.BEST:
+        if rule.rule is not GradeFrom.BEST:
             return ""
         return sentence(
             "the best of several attempts lies above what a student usually does: the best of 5 "
@@ -236,7 +236,7 @@ def chance_words(board: ProgressBoard, rule: GradeRule) -> str:
         sd=spread.sd,
         pairs=counted("{n} pair of attempts", "{n} pairs of attempts", spread.pairs),
     )
-    if rule.rule is Rule.BEST:
+    if rule.rule is GradeFrom.BEST:
         above = [expected_best(len(attempts)) * spread.sd for attempts in some]
         most = max(len(attempts) for attempts in some)
         consequence = sentence(
@@ -249,7 +249,7 @@ def chance_words(board: ProgressBoard, rule: GradeRule) -> str:
             attempts=most,
         )
     else:
-        size = rule.last if rule.rule is Rule.MEAN else 1
+        size = rule.last if rule.rule is GradeFrom.MEAN else 1
         consequence = sentence(
             "so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the "
             "number of attempts by chance",
@@ -292,10 +292,12 @@ def _feedback(rule: GradeRule, attempts: Sequence[Indexed], remarks: Mapping[str
         return ""
     n, taken = len(attempts), len(rule.taken(attempts))
     of_how_many = {
-        Rule.BEST: counted("best of {n} attempt", "best of {n} attempts", n),
-        Rule.FIRST: counted("first of {n} attempt", "first of {n} attempts", n),
-        Rule.LAST: counted("last of {n} attempt", "last of {n} attempts", n),
-        Rule.MEAN: counted("mean of the last {n} attempt", "mean of the last {n} attempts", taken),
+        GradeFrom.BEST: counted("best of {n} attempt", "best of {n} attempts", n),
+        GradeFrom.FIRST: counted("first of {n} attempt", "first of {n} attempts", n),
+        GradeFrom.LAST: counted("last of {n} attempt", "last of {n} attempts", n),
+        GradeFrom.MEAN: counted(
+            "mean of the last {n} attempt", "mean of the last {n} attempts", taken
+        ),
     }[rule.rule]
     passed = any(attempt.passed for attempt in attempts)
     parts = [

@@ -19,8 +19,8 @@ from app.session.course import CourseItem
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
 from app.views.people.group_report import ReportFacts, group_report, in_order
+from app.views.people.report_pages import ReportPages
 from app.views.people.results_report import student_report
-from app.views.people.sheet import Sheet
 
 NOW = datetime.datetime(2026, 11, 23, 12, 0, tzinfo=datetime.UTC)
 
@@ -63,7 +63,7 @@ def results_of(students, exercises, attempts, names=None):
 def drawn(monkeypatch, application):
     """Every text that is drawn on the last pass, page by page."""
     pages = {}
-    write, paragraph = Sheet.text, Sheet.paragraph
+    write, paragraph = ReportPages.text, ReportPages.paragraph
 
     def text(sheet, x, words, *given, **more):
         pages.setdefault((sheet.pages, sheet.page), []).append(words)
@@ -74,8 +74,8 @@ def drawn(monkeypatch, application):
         pages.setdefault((sheet.pages, sheet.page), []).append(words)
         return paragraph(sheet, words, *given, **more)
 
-    monkeypatch.setattr(Sheet, "text", text)
-    monkeypatch.setattr(Sheet, "paragraph", lines)
+    monkeypatch.setattr(ReportPages, "text", text)
+    monkeypatch.setattr(ReportPages, "paragraph", lines)
 
     def last():
         most = max(count for count, _ in pages)

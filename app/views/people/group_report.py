@@ -19,7 +19,7 @@ from PySide6.QtGui import QColor, QPen
 
 from app import __version__
 from app.core.progress import Progress
-from app.exchange.moodle import GradeRule, Rule, chance_words
+from app.exchange.moodle import GradeFrom, GradeRule, chance_words
 from app.exchange.results import Results
 from app.exercises.guidance import Purpose
 from app.session.board import BoardCell
@@ -27,8 +27,8 @@ from app.session.course import CourseItem
 from app.session.people import Person
 from app.views.debrief.report import DIM, INK, RULE
 from app.views.kit.text import day, moment, number, tr, tr_n, translated
+from app.views.people.report_pages import ReportPages, draw_pdf
 from app.views.people.results_report import PASSED
-from app.views.people.sheet import Sheet, draw_pdf
 
 _LINE: Final = 13.4
 """Height of a row of marks [pt]: thirty of them stand on a page."""
@@ -93,7 +93,7 @@ def group_report(
     progress = progress or Progress()
     students = in_order(results)
 
-    def fill(sheet: Sheet) -> None:
+    def fill(sheet: ReportPages) -> None:
         begun = 0.5 if sheet.pages else 0.0
         progress.report(begun, facts.heading)
         _heading(sheet, results, facts)
@@ -122,7 +122,7 @@ def in_order(results: Results) -> list[Person]:
 
 
 # --- above the marks ------------------------------------------------------------------------------
-def _heading(sheet: Sheet, results: Results, facts: ReportFacts) -> None:
+def _heading(sheet: ReportPages, results: Results, facts: ReportFacts) -> None:
     board = results.board
     sheet.y = sheet.margin + 12.0
     sheet.text(sheet.margin, facts.heading, 17.0, bold=True, width=sheet.inner)
@@ -153,10 +153,10 @@ def _heading(sheet: Sheet, results: Results, facts: ReportFacts) -> None:
 def rule_words(rule: GradeRule) -> str:
     """Say which attempts make a mark."""
     return {
-        Rule.BEST: tr("points of the best attempt, of 100"),
-        Rule.FIRST: tr("points of the first attempt, of 100"),
-        Rule.LAST: tr("points of the last attempt, of 100"),
-        Rule.MEAN: tr("mean of the points of the last {n} attempts, of 100", n=rule.last),
+        GradeFrom.BEST: tr("points of the best attempt, of 100"),
+        GradeFrom.FIRST: tr("points of the first attempt, of 100"),
+        GradeFrom.LAST: tr("points of the last attempt, of 100"),
+        GradeFrom.MEAN: tr("mean of the points of the last {n} attempts, of 100", n=rule.last),
     }[rule.rule]
 
 
@@ -172,7 +172,7 @@ def _dates(results: Results) -> str:
 _COLUMNS: Final = (0.0, 26.0, 290.0, 344.0, 430.0, 536.0, 700.0)
 
 
-def _exercises(sheet: Sheet, results: Results, titles: Mapping[str, str]) -> None:
+def _exercises(sheet: ReportPages, results: Results, titles: Mapping[str, str]) -> None:
     """List the exercises by the numbers that stand above the marks."""
     heads = (
         *("", tr("Exercise"), tr("Version"), tr("Purpose")),
@@ -213,7 +213,7 @@ def _passed_of(results: Results, item: CourseItem) -> str:
 
 # --- marks ----------------------------------------------------------------------------------------
 def _marks(
-    sheet: Sheet,
+    sheet: ReportPages,
     results: Results,
     titles: Mapping[str, str],
     students: Sequence[Person],
@@ -269,7 +269,7 @@ def _marks(
     _below(sheet, results, items, rule, width)
 
 
-def _small(sheet: Sheet, left: float, words: str, width: float) -> None:
+def _small(sheet: ReportPages, left: float, words: str, width: float) -> None:
     """Write the title of an exercise below its number: two short lines, cut where it is longer."""
     first, rest = "", words.split()
     while rest and (not first or sheet.advance(f"{first} {rest[0]}", _SMALL) <= width):
@@ -279,7 +279,7 @@ def _small(sheet: Sheet, left: float, words: str, width: float) -> None:
         sheet.text(left, line, _SMALL, DIM, width=width)
 
 
-def _student(sheet: Sheet, person: Person, results: Results) -> None:
+def _student(sheet: ReportPages, person: Person, results: Results) -> None:
     """Write who it is: the name, and the pseudonym beside it where there is room."""
     who = _who(person, results)
     sheet.text(sheet.margin, who, 8.5, width=_NAME - 8.0)
@@ -289,7 +289,7 @@ def _student(sheet: Sheet, person: Person, results: Results) -> None:
         sheet.text(sheet.margin + taken, pseudonym, _SMALL, DIM)
 
 
-def _mark(sheet: Sheet, left: float, cell: BoardCell, mark: float | None) -> None:
+def _mark(sheet: ReportPages, left: float, cell: BoardCell, mark: float | None) -> None:
     """Write a mark: whether it was passed, the points, and how many attempts count."""
     if mark is None:
         sheet.text(left + 9.0, "–" if not cell.others else f"– ({cell.others})", 8.0, DIM)
@@ -303,7 +303,7 @@ def _mark(sheet: Sheet, left: float, cell: BoardCell, mark: float | None) -> Non
 
 
 def _below(
-    sheet: Sheet, results: Results, items: Sequence[CourseItem], rule: GradeRule, width: float
+    sheet: ReportPages, results: Results, items: Sequence[CourseItem], rule: GradeRule, width: float
 ) -> None:
     """Write below the marks how many pass, and the mark in the middle."""
     board = results.board
@@ -324,14 +324,14 @@ def _below(
     sheet.y += _LINE
 
 
-def _ending(sheet: Sheet, right: float, words: str) -> None:
+def _ending(sheet: ReportPages, right: float, words: str) -> None:
     """Write a figure below a column, where the marks end."""
     taken = sheet.advance(words, 8.0, bold=True)
     sheet.text(right - taken, words, 8.0, DIM, bold=True)
 
 
 # --- below the marks ------------------------------------------------------------------------------
-def _notes(sheet: Sheet, results: Results, rule: GradeRule) -> None:
+def _notes(sheet: ReportPages, results: Results, rule: GradeRule) -> None:
     """Say how to read the marks, and what chance does to them."""
     sheet.y += 6.0
     how = tr(
@@ -347,7 +347,7 @@ def _notes(sheet: Sheet, results: Results, rule: GradeRule) -> None:
         sheet.paragraph(words if words.endswith(".") else f"{words}.", 8.0, DIM)
 
 
-def _signatures(sheet: Sheet) -> None:
+def _signatures(sheet: ReportPages) -> None:
     """Leave lines for place and date, and for two signatures, on one page."""
     sheet.need(_SIGNED)
     sheet.y += 48.0

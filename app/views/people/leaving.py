@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.exchange.moodle import GradeRule, MoodleChoice, Rule, chance_words, identifiers
+from app.exchange.moodle import GradeFrom, GradeRule, MoodleChoice, chance_words, identifiers
 from app.session.accounts import Account
 from app.session.board import ProgressBoard
 from app.views.kit.parts import add_row
@@ -61,10 +61,10 @@ class LeavingDialog(SettingsDialog):
         self._board, self._accounts, self._take = board, accounts, take
         self.rule, self.last = QComboBox(self), QSpinBox(self)
         for words, rule in (
-            (tr("the best attempt"), Rule.BEST),
-            (tr("the first attempt"), Rule.FIRST),
-            (tr("the last attempt"), Rule.LAST),
-            (tr("the mean of the last attempts"), Rule.MEAN),
+            (tr("the best attempt"), GradeFrom.BEST),
+            (tr("the first attempt"), GradeFrom.FIRST),
+            (tr("the last attempt"), GradeFrom.LAST),
+            (tr("the mean of the last attempts"), GradeFrom.MEAN),
         ):
             self.rule.addItem(words, rule.value)
         self.last.setRange(2, 100)
@@ -99,8 +99,8 @@ class LeavingDialog(SettingsDialog):
 
     def choice(self) -> LeavingChoice:
         """Return what is chosen."""
-        rule = Rule(self.rule.currentData())
-        grades = GradeRule(rule, self.last.value() if rule is Rule.MEAN else 0)
+        rule = GradeFrom(self.rule.currentData())
+        grades = GradeRule(rule, self.last.value() if rule is GradeFrom.MEAN else 0)
         kind = Account(self.identifier.currentData())
         gradebook = MoodleChoice(kind, grades, self.feedback.isChecked())
         return LeavingChoice(gradebook, self.place.text().strip())
@@ -118,6 +118,6 @@ class LeavingDialog(SettingsDialog):
     def _show_chance(self) -> None:
         """Say what chance does to marks by the rule that is chosen."""
         rule = self.choice().gradebook.rule
-        self.last.setEnabled(rule.rule is Rule.MEAN)
+        self.last.setEnabled(rule.rule is GradeFrom.MEAN)
         words = translated(chance_words(self._board, rule))
         self.say(words[:1].upper() + words[1:])

@@ -24,7 +24,7 @@ from app.session.board import CurvePoint
 from app.session.people import Person
 from app.views.debrief.report import BAND_INKS, DIM, INK, LINE, MARGIN, RULE, WIDTH, font
 from app.views.kit.text import date_text, listing, moment, number, tr, translated
-from app.views.people.sheet import ROW, Sheet, draw_pdf
+from app.views.people.report_pages import ROW, ReportPages, draw_pdf
 
 PASSED, MEDIAN = BAND_INKS[Band.GOOD], "#8a5a00"
 
@@ -45,7 +45,7 @@ def student_report(
     """
     heading = _who(person, results)
 
-    def fill(sheet: Sheet) -> None:
+    def fill(sheet: ReportPages) -> None:
         board = results.board
         _heading(sheet, heading, tr("Report of a student"), now)
         if person.groups:
@@ -83,7 +83,7 @@ def write_report(path: Path, draw: Callable[[], bytes]) -> None:
 
 
 # --- parts ------------------------------------------------------------------------------------
-def _heading(sheet: Sheet, title: str, kind: str, now: datetime.datetime | None) -> None:
+def _heading(sheet: ReportPages, title: str, kind: str, now: datetime.datetime | None) -> None:
     sheet.y = MARGIN + 14.0
     sheet.text(MARGIN, title, 17.0, bold=True, width=WIDTH - 2.0 * MARGIN)
     sheet.y += 17.0
@@ -98,7 +98,9 @@ def _heading(sheet: Sheet, title: str, kind: str, now: datetime.datetime | None)
 _COLUMNS: Final = (0.0, 190.0, 250.0, 300.0, 350.0, 420.0)
 
 
-def _exercises(sheet: Sheet, results: Results, person: Person, titles: Mapping[str, str]) -> None:
+def _exercises(
+    sheet: ReportPages, results: Results, person: Person, titles: Mapping[str, str]
+) -> None:
     """List how the student stands in each exercise."""
     heads = (
         *(tr("Exercise"), tr("Attempts"), tr("Best"), tr("Last")),
@@ -132,7 +134,7 @@ def _exercises(sheet: Sheet, results: Results, person: Person, titles: Mapping[s
     sheet.y += ROW
 
 
-def _curve(sheet: Sheet, title: str, points: Sequence[CurvePoint]) -> None:
+def _curve(sheet: ReportPages, title: str, points: Sequence[CurvePoint]) -> None:
     """Draw points over the attempts, with the best until then and the moving median."""
     height = 110.0
     sheet.need(height + 40.0)
@@ -171,7 +173,9 @@ def _curve(sheet: Sheet, title: str, points: Sequence[CurvePoint]) -> None:
     sheet.y = bottom + 34.0
 
 
-def _remarks(sheet: Sheet, results: Results, person: Person, titles: Mapping[str, str]) -> None:
+def _remarks(
+    sheet: ReportPages, results: Results, person: Person, titles: Mapping[str, str]
+) -> None:
     """Tell what the instructor said of the student's attempts, newest first."""
     said = [
         (one, results.remarks[one.id])

@@ -31,7 +31,7 @@ _LYING_MARGIN: Final = 36.0
 
 
 @dataclass(slots=True)
-class Sheet:
+class ReportPages:
     """Pages that are filled from the top down.
 
     Attributes:
@@ -144,7 +144,7 @@ class Sheet:
         self.right(words)
 
 
-def draw_pdf(fill: Callable[[Sheet], None], title: str, lying: bool = False) -> bytes:
+def draw_pdf(fill: Callable[[ReportPages], None], title: str, lying: bool = False) -> bytes:
     """Draw twice, for how many pages there are is known after the first time; return the PDF.
 
     Args:
@@ -167,7 +167,7 @@ def draw_pdf(fill: Callable[[Sheet], None], title: str, lying: bool = False) -> 
         writer.setCreator(f"Acus {__version__}")
         painter = QPainter(writer)
         margin = _LYING_MARGIN if lying else MARGIN
-        sheet = Sheet(painter, writer.newPage, title, pages, width, height, margin)
+        sheet = ReportPages(painter, writer.newPage, title, pages, width, height, margin)
         try:
             fill(sheet)
             sheet.foot()
