@@ -6392,6 +6392,22 @@
             <translation type="unfinished">{pseudonym!r} steht zweimal da: Löschen Sie eine Zeile</translation>
         </message>
         <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} enthält dasselbe wie eine andere: eine löschen</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">Zeile 1: das ist eine Tabelle von Moodle ohne Anmeldenamen und ID-Nummern, und der Bildschirm zeigt weder Namen noch E-Mail-Adressen: eine Spalte pseudonym hinzufügen, oder sie mit dem Anmeldenamen exportieren</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Überschrift braucht die Spalte pseudonym; Spalten sind {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} ist nicht bekannt; Spalten sind {wanted}</translation>
+        </message>
+        <message>
             <source>the cameras see the needle again: the depth is measured</source>
             <translation type="unfinished">die Kameras sehen die Nadel wieder: Die Tiefe wird gemessen</translation>
         </message>
@@ -15077,6 +15093,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alle Übungen</translation>
         </message>
         <message>
+            <source>Venue</source>
+            <translation type="unfinished">Ort</translation>
+        </message>
+        <message>
             <source>Everybody</source>
             <translation type="unfinished">Alle</translation>
         </message>
@@ -18817,6 +18837,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paar von Versuchen</numerusform>
+                <numerusform>{n} Paare von Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch {whose}</numerusform>
@@ -18877,13 +18904,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Name {whose}</numerusform>
                 <numerusform>{n} Namen {whose}</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} pairs of attempts</source>
-            <translation type="unfinished">
-                <numerusform>{n} Paar von Versuchen</numerusform>
-                <numerusform>{n} Paare von Versuchen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19966,22 +19986,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
             <translation type="unfinished">{address!r} kann nicht am Anfang der Kennungen von Aussagen stehen: eine eigene Adresse angeben, etwa https://training.hospital.example</translation>
-        </message>
-        <message>
-            <source>line 1: the column {column!r} holds what another one does: delete one</source>
-            <translation type="unfinished">Zeile 1: die Spalte {column!r} enthält dasselbe wie eine andere: eine löschen</translation>
-        </message>
-        <message>
-            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
-            <translation type="unfinished">Zeile 1: das ist eine Tabelle von Moodle ohne Anmeldenamen und ID-Nummern, und der Bildschirm zeigt weder Namen noch E-Mail-Adressen: eine Spalte pseudonym hinzufügen, oder sie mit dem Anmeldenamen exportieren</translation>
-        </message>
-        <message>
-            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
-            <translation type="unfinished">Zeile 1: die Überschrift braucht die Spalte pseudonym; Spalten sind {wanted}</translation>
-        </message>
-        <message>
-            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
-            <translation type="unfinished">Zeile 1: die Spalte {column!r} ist nicht bekannt; Spalten sind {wanted}</translation>
         </message>
         <message>
             <source>{path} is damaged: move it away, and put the statements into the queue again</source>

@@ -6392,6 +6392,22 @@
             <translation type="unfinished">{pseudonym!r} y figure deux fois : supprimez une ligne</translation>
         </message>
         <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} contient la même chose qu’une autre : en supprimer une</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">ligne 1 : c’est une table de Moodle sans noms d’utilisateur ni numéros d’identification, et l’écran ne montre ni noms ni adresses de courriel : ajouter une colonne pseudonym, ou l’exporter avec le nom d’utilisateur</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : l’en-tête doit avoir la colonne pseudonym ; les colonnes sont {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} n’est pas connue ; les colonnes sont {wanted}</translation>
+        </message>
+        <message>
             <source>the cameras see the needle again: the depth is measured</source>
             <translation type="unfinished">les caméras voient de nouveau l’aiguille : la profondeur est mesurée</translation>
         </message>
@@ -15077,6 +15093,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tous les exercices</translation>
         </message>
         <message>
+            <source>Venue</source>
+            <translation type="unfinished">Lieu</translation>
+        </message>
+        <message>
             <source>Everybody</source>
             <translation type="unfinished">Tous</translation>
         </message>
@@ -18817,6 +18837,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} paire d’essais</numerusform>
+                <numerusform>{n} paires d’essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} essai {whose}</numerusform>
@@ -18877,13 +18904,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} nom {whose}</numerusform>
                 <numerusform>{n} noms {whose}</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} pairs of attempts</source>
-            <translation type="unfinished">
-                <numerusform>{n} paire d’essais</numerusform>
-                <numerusform>{n} paires d’essais</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19966,22 +19986,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
             <translation type="unfinished">{address!r} ne peut pas commencer les identifiants des déclarations : donner une adresse qui vous appartient, comme https://training.hospital.example</translation>
-        </message>
-        <message>
-            <source>line 1: the column {column!r} holds what another one does: delete one</source>
-            <translation type="unfinished">ligne 1 : la colonne {column!r} contient la même chose qu’une autre : en supprimer une</translation>
-        </message>
-        <message>
-            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
-            <translation type="unfinished">ligne 1 : c’est une table de Moodle sans noms d’utilisateur ni numéros d’identification, et l’écran ne montre ni noms ni adresses de courriel : ajouter une colonne pseudonym, ou l’exporter avec le nom d’utilisateur</translation>
-        </message>
-        <message>
-            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
-            <translation type="unfinished">ligne 1 : l’en-tête doit avoir la colonne pseudonym ; les colonnes sont {wanted}</translation>
-        </message>
-        <message>
-            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
-            <translation type="unfinished">ligne 1 : la colonne {column!r} n’est pas connue ; les colonnes sont {wanted}</translation>
         </message>
         <message>
             <source>{path} is damaged: move it away, and put the statements into the queue again</source>

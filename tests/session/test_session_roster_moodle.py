@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 from app.session.accounts import Account, accounts_in
+from app.session.archive import backup
 from app.session.people import People
+from app.session.restoring import restore_backup
 from app.session.roster import read_roster
 
 ENGLISH = (
@@ -96,3 +98,17 @@ def test_identifiers_are_kept_with_the_names_and_updated_by_the_next_roster(
     assert people.everybody(names=True)[0].name == "Łukasz Żak"
     outside = (path for path in people.folder.iterdir() if path.name != "names.json")
     assert all(b"clinic.example" not in path.read_bytes() for path in outside if path.is_file())
+
+
+def test_identifiers_come_back_with_a_backup(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path / "one"))
+    (tmp_path / "records").mkdir()
+    People().take_roster(read_roster(ENGLISH.encode())[0])
+    backup(tmp_path / "all.acusbackup", tmp_path / "records", People())
+    before = People().names()
+    assert len(before) == 8
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path / "other"))
+    restore_backup(tmp_path / "all.acusbackup", tmp_path / "records", people=People())
+    assert People().names() == before

@@ -137,7 +137,7 @@ def _heading(sheet: ReportPages, results: Results, facts: ReportFacts) -> None:
     counted = sum(len(some) for some in board.counted.values())
     attempts = tr_n("{n} attempt that counts", "{n} attempts that count", counted)
     rows = (
-        (tr("Place"), facts.place or "_" * 34, tr("Students"), str(len(board.students))),
+        (tr("Venue"), facts.place or "_" * 34, tr("Students"), str(len(board.students))),
         (tr("Dates"), _dates(results), tr("Attempts"), attempts),
         (tr("Group"), facts.group or tr("Everybody"), tr("Mark"), rule_words(facts.rule)),
     )

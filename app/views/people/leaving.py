@@ -82,7 +82,7 @@ class LeavingDialog(SettingsDialog):
         add_row(form, tr("A mark is"), self.rule)
         add_row(form, tr("How many"), self.last)
         if accounts is None:
-            add_row(form, tr("Place"), self.place)
+            add_row(form, tr("Venue"), self.place)
         else:
             add_row(form, tr("Moodle knows students by"), self.identifier)
             form.addRow("", self.feedback)
