@@ -199,11 +199,17 @@ def xapi(
     """Write attempts as statements of the Experience API (instructor).
 
     Students are accounts by pseudonym. The same attempt is the same statement, whenever it is
-    written. Void attempts, drills and what no person did are left out.
+    written. Void attempts, drills and what no person did are left out; in the queue they are taken
+    back.
     """
     from app.commands.calibrate_parts import with_progress
     from app.exchange.results import write_results
-    from app.exchange.xapi import checked_home, statements, statements_text
+    from app.exchange.xapi import (
+        checked_home,
+        statements,
+        statements_text,
+        voiding_statements,
+    )
     from app.session.people import people_folder
     from app.session.statement_queue import FOLDER, StatementQueue
 
@@ -216,16 +222,18 @@ def xapi(
     if out is not None:
         write_results(out, statements_text(told, out.suffix.lower() == ".json"))
     waiting = StatementQueue(people_folder() / FOLDER)
+    voided = waiting.take_back(voiding_statements(results, home)) if queue else 0
     new = waiting.put(told) if queue else 0
     facts = {
         "files": [] if out is None else [out],
         "statements": len(told),
         "new": new,
+        "voided": voided,
         "waiting": len(waiting.waiting()),
     }
     shown = (
         template("{statements:#1 statement|# statements}{files:?, written to {files}|}"),
-        template("queue: {new:#} new, {waiting:#1 waits|# wait} to be sent"),
+        template("queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent"),
     )
     return Answer(facts, shown=shown)
 

@@ -35,6 +35,7 @@ VERBS: Final = {
 }
 """Verbs of ADL's vocabulary by whether an attempt passes; None without a score."""
 
+VOIDED: Final = "http://adlnet.gov/expapi/verbs/voided"
 SIMULATION: Final = "http://adlnet.gov/expapi/activities/simulation"
 
 _HOME: Final = re.compile(r"https?://[A-Za-z0-9.-]+(:\d+)?(/[A-Za-z0-9._~/-]*)?")
@@ -89,6 +90,34 @@ def statements(
     return found
 
 
+def voiding_statements(results: Results, home: str) -> dict[str, QueuedStatement]:
+    """Return what takes back the statement of each attempt that no longer counts, by its id.
+
+    A statement that was sent cannot be changed, only voided (xAPI-Data 2.3.2), and not be sent
+    again under its id: once voided it stays so, whatever is said of the attempt later.
+
+    Raises:
+        ExportError: if the address cannot begin an id.
+    """
+    home, found = checked_home(home), {}
+    actor = {"objectType": "Agent", "account": {"homePage": home, "name": "instructor"}}
+    for attempt in results.attempts:
+        person = results.people.get(attempt.student)
+        if person is None or not results.remarks.get(attempt.id, Remarks()).uncounted:
+            continue
+        voided = _id(home, attempt)
+        found[voided] = QueuedStatement(
+            person.key,
+            {
+                "id": str(uuid5(NAMESPACE_URL, f"{home}/voided/{voided}")),
+                "actor": actor,
+                "verb": {"id": VOIDED, "display": {"en": "voided"}},
+                "object": {"objectType": "StatementRef", "id": voided},
+            },
+        )
+    return found
+
+
 def statement(
     attempt: Indexed, person: Person, home: str, titles: Mapping[str, str], course: str = ""
 ) -> dict[str, Any]:
@@ -108,7 +137,7 @@ def statement(
         context["contextActivities"] = {"parent": [parent]}
     verb = VERBS[passed]
     document: dict[str, Any] = {
-        "id": str(uuid5(NAMESPACE_URL, f"{home}/attempts/{quote(attempt.id, safe='')}")),
+        "id": _id(home, attempt),
         "actor": {
             "objectType": "Agent",
             "account": {"homePage": home, "name": printable(person.pseudonym)},
@@ -144,6 +173,11 @@ def statements_text(queued: Sequence[QueuedStatement], array: bool) -> str:
 def _lines(documents: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     for document in documents:
         yield json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _id(home: str, attempt: Indexed) -> str:
+    """Return the id of an attempt's statement: the same whenever it is made."""
+    return str(uuid5(NAMESPACE_URL, f"{home}/attempts/{quote(attempt.id, safe='')}"))
 
 
 def _is_told(attempt: Indexed) -> bool:

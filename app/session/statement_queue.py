@@ -10,7 +10,7 @@ somebody who is erased leave the queue with him.
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -95,15 +95,34 @@ class StatementQueue:
         Raises:
             SessionError: if the queue cannot be read or written.
         """
+        self._take_out(lambda queued: queued.student in students)
+
+    def take_back(self, voiding: Mapping[str, QueuedStatement]) -> int:
+        """Take out statements that wait; where one was sent, add the one that voids it.
+
+        Args:
+            voiding: by the id of the statement that no longer holds.
+
+        Returns:
+            How many were added.
+
+        Raises:
+            SessionError: if the queue cannot be read or written.
+        """
+        arrived = self._arrived()
+        self._take_out(lambda queued: queued.id in voiding and queued.id not in arrived)
+        return self.put(voiding[name] for name in sorted(voiding) if name in arrived)
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _take_out(self, unwanted: Callable[[QueuedStatement], bool]) -> None:
         for path in self._files(_WAITING):
             every = _read(path)
-            left = [queued for queued in every if queued.student not in students]
+            left = [queued for queued in every if not unwanted(queued)]
             if not left:
                 remove(path)
             elif len(left) < len(every):
                 self._write(path, left)
 
-    # --- inside -----------------------------------------------------------------------------------
     def _files(self, kind: str) -> list[Path]:
         return sorted(self.folder.glob(f"{kind}*.jsonl"))
 

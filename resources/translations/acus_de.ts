@@ -1016,8 +1016,8 @@
             <translation type="unfinished">{statements:#1 Aussage|# Aussagen}{files:?, geschrieben in {files}|}</translation>
         </message>
         <message>
-            <source>queue: {new:#} new, {waiting:#1 waits|# wait} to be sent</source>
-            <translation type="unfinished">Warteschlange: {new:#} neu, {waiting:#1 wartet|# warten} auf das Senden</translation>
+            <source>queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">Warteschlange: {new:#} neu, {voided:#} zurückgenommen, {waiting:#1 wartet|# warten} auf das Senden</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>

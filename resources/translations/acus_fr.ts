@@ -1016,8 +1016,8 @@
             <translation type="unfinished">{statements:#1 déclaration|# déclarations}{files:?, dans {files}|}</translation>
         </message>
         <message>
-            <source>queue: {new:#} new, {waiting:#1 waits|# wait} to be sent</source>
-            <translation type="unfinished">file d’attente : {new:#} de plus, {waiting:#1 attend|# attendent} l’envoi</translation>
+            <source>queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">file d’attente : {new:#} de plus, {voided:#} annulées, {waiting:#1 attend|# attendent} l’envoi</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>

@@ -107,8 +107,10 @@ def test_statements_are_written_twice_alike_and_queued_once(acus, group, tmp_pat
     assert [json.loads(line) for line in lines] == array
     assert {one["actor"]["account"]["name"] for one in array} == {"lzak", "zoe"}
     assert array[0]["result"]["duration"] == "PT61.50S"
+    acus("people", "remark", "lzak-0", "--void", "the phone rang")
+    assert acus(*words, "--queue")["waiting"] == 11
     acus("people", "erase", "zoe", "--records")
-    assert acus(*words, "--queue")["waiting"] == 6
+    assert acus(*words, "--queue")["waiting"] == 5
     assert "own, such as" in acus("results", "xapi", "--home", "x", "--queue", code=2)
     assert "nothing to do" in acus(*words, code=2)
 

@@ -15,7 +15,7 @@ from xapi_rules import broken_rules
 
 from app.exchange.errors import ExportError
 from app.exchange.results import Results
-from app.exchange.xapi import statements, statements_text
+from app.exchange.xapi import statements, statements_text, voiding_statements
 from app.session.board import progress_board
 from app.session.course import CourseItem
 from app.session.people import Remarks
@@ -94,6 +94,19 @@ def test_what_is_nobodys_void_aborted_or_of_a_script_leaves_no_statement() -> No
     )
     told = statements(results(*some, said={"s5": Remarks(void="the phone rang")}), HOME)
     assert told == []
+
+
+def test_a_void_attempt_is_taken_back_by_the_id_that_its_statement_had() -> None:
+    before = {one.id for one in statements(results(*SOME), HOME)}
+    said = {"a1": Remarks(void="the phone rang"), "a2": Remarks(excess="beyond the limit")}
+    voiding = voiding_statements(results(*SOME, said=said), HOME)
+    assert len(voiding) == 2
+    assert set(voiding) < before
+    for voided, one in voiding.items():
+        assert broken_rules(json.loads(json.dumps(one.statement))) == []
+        assert one.statement["verb"]["id"] == "http://adlnet.gov/expapi/verbs/voided"
+        assert one.statement["object"] == {"objectType": "StatementRef", "id": voided}
+        assert one.id not in before
 
 
 @pytest.mark.parametrize("home", ["hospital", "ftp://x.example", "https://x y", "https://"])

@@ -44,7 +44,12 @@ def _statement(s):
     yield from _only(s["verb"], {"id", "display"}, "verb")
     yield from _iri(s["verb"]["id"], "2.4.3")
     yield from _language_map(s["verb"]["display"])
-    yield from _activity(s["object"])
+    if s["object"].get("objectType") == "StatementRef":  # 2.3.2: what it voids, by its id
+        yield from _only(s["object"], {"objectType", "id"}, "object")
+        if str(UUID(s["object"]["id"])) != s["object"]["id"]:
+            yield "2.4.4.3: id"
+    else:
+        yield from _activity(s["object"])
     yield from _result(s.get("result", {}))
     context = s.get("context", {})
     yield from _only(context, CONTEXT, "context")

@@ -100,6 +100,23 @@ def test_who_is_erased_leaves_the_queue_and_the_file_of_names(
     assert people.names()[f"{bob.key} email"] == "bob@x.example"
 
 
+def test_what_no_longer_holds_leaves_the_queue_or_is_voided_where_it_was_sent(
+    tmp_path: Path,
+) -> None:
+    queue = StatementQueue(tmp_path)
+    queue.put([statement(1), statement(2), statement(3)])
+    queue.sent(["00-001"])
+    voiding = {f"00-{n:03d}": QueuedStatement("p-a", {"id": f"v-{n}"}) for n in (1, 2)}
+    assert queue.take_back(voiding) == 1
+    assert ids(queue) == ["00-003", "v-1"]
+    assert queue.take_back(voiding) == 0
+    queue.sent(["v-1"])
+    assert queue.take_back(voiding) == 0
+    assert ids(queue) == ["00-003"]
+    queue.put([statement(2)])  # it counts again, and nobody was told otherwise
+    assert ids(queue) == ["00-002", "00-003"]
+
+
 def test_a_damaged_file_is_named_with_what_to_do(tmp_path: Path) -> None:
     queue = StatementQueue(tmp_path)
     queue.put([statement(1)])
