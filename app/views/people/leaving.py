@@ -57,7 +57,7 @@ class LeavingDialog(SettingsDialog):
         parent: QWidget | None = None,
     ) -> None:
         title = tr("Report of the group") if accounts is None else tr("Gradebook for Moodle")
-        super().__init__(title, (560, 380), QDialogButtonBox.StandardButton.Ok, parent)
+        super().__init__(title, (560, 320), QDialogButtonBox.StandardButton.Ok, parent)
         self._board, self._accounts, self._take = board, accounts, take
         self.rule, self.last = QComboBox(self), QSpinBox(self)
         for words, rule in (
