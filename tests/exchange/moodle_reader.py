@@ -8,7 +8,8 @@
   `update_grade_item`, `create_feedback`, `insert_grade_record`, `prepare_import_grade_data`;
 - PHP's `fgetcsv`: between enclosures a backslash keeps the sign after it, a quote among them, and
   stays itself; `fputcsv` encloses what holds separator, enclosure, escape, blank, tab or end of
-  line, and doubles quotes that no backslash stands before.
+  line, and doubles quotes that no backslash stands before. Both were held against PHP 8.2 over
+  4000 random tables of quotes, backslashes, separators and ends of lines: equal to the last sign.
 """
 
 import re
