@@ -26,6 +26,8 @@ from uuid import uuid4
 from app.core import paths
 from app.core.files import beside, step
 from app.core.messages import sentence
+from app.core.sorting import name_order
+from app.session.accounts import entry_of, owner_of
 from app.session.audit import note
 from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
@@ -39,6 +41,7 @@ from app.session.school_tables import (
     Tombstone,
     add_tables,
 )
+from app.session.statement_queue import FOLDER, StatementQueue
 from app.session.station import StationKey, new_recovery_key, opens
 from app.session.tries import (
     INSTRUCTOR,
@@ -266,7 +269,7 @@ class People:
             )
             for row in rows
         ]
-        return sorted(found, key=lambda person: person.pseudonym.casefold())
+        return sorted(found, key=lambda person: name_order(person.pseudonym))
 
     def find(self, pseudonym: str) -> Person:
         """Return a student by pseudonym, in whatever case, or by key.
@@ -357,6 +360,7 @@ class People:
                     connection.execute(insert(members), rows)
                 if line.name:
                     names[key] = line.name
+                names |= {entry_of(key, kind): value for kind, value in line.accounts.items()}
             write_names(names)
         for what, keys in (("students added", new_keys), ("students changed", changed)):
             if keys:
@@ -521,7 +525,7 @@ class People:
                 stone = Tombstone.over(key, anonymous)
                 connection.execute(_tables().tables[TOMBSTONES].insert(), stone._asdict())
             names = self.names()
-            left = {key: name for key, name in names.items() if key not in keys}
+            left = {entry: name for entry, name in names.items() if owner_of(entry) not in keys}
             if left != names:
                 write_names(left)
         self.database.shrink()
@@ -537,6 +541,7 @@ class People:
         from sqlalchemy.dialects.sqlite import insert
 
         t = _tables().tables
+        StatementQueue(self.folder / FOLDER).forget(keys)
         for key in keys:
             for name, column in OF_PERSON.items():
                 connection.execute(t[name].delete().where(t[name].c[column] == key))
@@ -570,7 +575,7 @@ class People:
             return _setting(connection, name)
 
     def names(self) -> dict[str, str]:
-        """Return names by key.
+        """Return names by key, and what other programs call students (`accounts.accounts_in`).
 
         Raises:
             PeopleError: if their file cannot be read, or is damaged.

@@ -19,6 +19,7 @@ from app.core import paths
 from app.core.files import LARGEST_FILE
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.session.accounts import owner_of
 from app.session.backup_file import ArchiveError, unpack
 from app.session.header import TRASH
 from app.session.journal import Step, move, removal
@@ -160,7 +161,8 @@ class TakingIn:
                 self._change(connection)
                 self._take_people(connection, here, after if names else {})
             self._erase(connection, set(here))
-            after = {key: name for key, name in after.items() if not self.erased_keys.of(key)}
+            gone = self.erased_keys
+            after = {one: name for one, name in after.items() if not gone.of(owner_of(one))}
             if after != listed:
                 write_names(after)
             excess = hold_limits(connection, self.people.folder, self.courses)

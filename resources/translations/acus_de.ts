@@ -996,8 +996,28 @@
             <translation type="unfinished">--student gilt für pdf; die Tabellen enthalten alle</translation>
         </message>
         <message>
+            <source>{identifier}: Moodle knows students by username, email or idnumber</source>
+            <translation type="unfinished">{identifier}: Moodle kennt Teilnehmer nach username, email oder idnumber</translation>
+        </message>
+        <message>
+            <source>--identifier and --feedback are for moodle, --grade for moodle and pdf</source>
+            <translation type="unfinished">--identifier und --feedback gelten für moodle, --grade für moodle und pdf</translation>
+        </message>
+        <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
             <translation type="unfinished">{attempts:#1 Versuch|# Versuche} von {students:#1 Teilnehmer|# Teilnehmern} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>nothing to do: give --out FILE, --queue, or both</source>
+            <translation type="unfinished">nichts zu tun: --out DATEI, --queue oder beides angeben</translation>
+        </message>
+        <message>
+            <source>{statements:#1 statement|# statements}{files:?, written to {files}|}</source>
+            <translation type="unfinished">{statements:#1 Aussage|# Aussagen}{files:?, geschrieben in {files}|}</translation>
+        </message>
+        <message>
+            <source>queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">Warteschlange: {new:#} neu, {voided:#} zurückgenommen, {waiting:#1 wartet|# warten} auf das Senden</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
@@ -6360,8 +6380,32 @@
             <translation type="unfinished">{pseudonym!r} sieht aus wie ein Schlüssel dieses Programms: Wählen Sie ein anderes Pseudonym</translation>
         </message>
         <message>
+            <source>{email!r} is no e-mail address: correct it</source>
+            <translation type="unfinished">{email!r} ist keine E-Mail-Adresse: bitte berichtigen</translation>
+        </message>
+        <message>
+            <source>the {kind} {identifier!r} is that of {holder!r} too: correct one of them</source>
+            <translation type="unfinished">{kind} {identifier!r} gehört auch {holder!r}: eine der beiden Zeilen berichtigen</translation>
+        </message>
+        <message>
             <source>{pseudonym!r} stands there twice: delete one row</source>
             <translation type="unfinished">{pseudonym!r} steht zweimal da: Löschen Sie eine Zeile</translation>
+        </message>
+        <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} enthält dasselbe wie eine andere: eine löschen</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">Zeile 1: das ist eine Tabelle von Moodle ohne Anmeldenamen und ID-Nummern, und der Bildschirm zeigt weder Namen noch E-Mail-Adressen: eine Spalte pseudonym hinzufügen, oder sie mit dem Anmeldenamen exportieren</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Überschrift braucht die Spalte pseudonym; Spalten sind {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} ist nicht bekannt; Spalten sind {wanted}</translation>
         </message>
         <message>
             <source>the cameras see the needle again: the depth is measured</source>
@@ -15049,6 +15093,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alle Übungen</translation>
         </message>
         <message>
+            <source>Venue</source>
+            <translation type="unfinished">Ort</translation>
+        </message>
+        <message>
             <source>Everybody</source>
             <translation type="unfinished">Alle</translation>
         </message>
@@ -15288,8 +15336,56 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Bericht einer Gruppe</translation>
         </message>
         <message>
+            <source>Mark</source>
+            <translation type="unfinished">Note</translation>
+        </message>
+        <message>
+            <source>points of the best attempt, of 100</source>
+            <translation type="unfinished">Punkte des besten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>points of the first attempt, of 100</source>
+            <translation type="unfinished">Punkte des ersten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>points of the last attempt, of 100</source>
+            <translation type="unfinished">Punkte des letzten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>mean of the points of the last {n} attempts, of 100</source>
+            <translation type="unfinished">Mittel der Punkte der letzten {n} Versuche, von 100</translation>
+        </message>
+        <message>
+            <source>{first} to {last}</source>
+            <translation type="unfinished">{first} bis {last}</translation>
+        </message>
+        <message>
+            <source>Attempts allowed</source>
+            <translation type="unfinished">Erlaubte Versuche</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Noch kein Versuch eines angemeldeten Teilnehmers.</translation>
+        </message>
+        <message>
+            <source>median</source>
+            <translation type="unfinished">Median</translation>
+        </message>
+        <message>
+            <source>✔ passed at least once. In brackets the attempts that count: scored, comparable, by a person, not declared void; – (2): two that do not count.</source>
+            <translation type="unfinished">✔ mindestens einmal bestanden. In Klammern die Versuche, die zählen: bewertet, vergleichbar, von einem Menschen, nicht für ungültig erklärt; – (2): zwei, die nicht zählen.</translation>
+        </message>
+        <message>
+            <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
+            <translation type="unfinished">Die Unterschriften gelten für alle {pages} Seiten: die Noten stehen auf den Seiten nach dieser.</translation>
+        </message>
+        <message>
+            <source>Place, date</source>
+            <translation type="unfinished">Ort, Datum</translation>
+        </message>
+        <message>
+            <source>Head of training</source>
+            <translation type="unfinished">Leitung der Ausbildung</translation>
         </message>
         <message>
             <source>Report of a student</source>
@@ -15306,10 +15402,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>passed</source>
             <translation type="unfinished">bestanden</translation>
-        </message>
-        <message>
-            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">{students}, {exercises}, {attempts}: bewertet, vergleichbar, von einer Person, nicht für ungültig erklärt.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -18633,6 +18725,34 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>best of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>bester von {n} Versuch</numerusform>
+                <numerusform>bester von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>first of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>erster von {n} Versuch</numerusform>
+                <numerusform>erster von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>last of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>letzter von {n} Versuch</numerusform>
+                <numerusform>letzter von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>mean of the last {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>Mittel des letzten {n} Versuchs</numerusform>
+                <numerusform>Mittel der letzten {n} Versuche</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
                 <numerusform>keine DICOM-Serie in {listing_path}: {n} Datei übergangen ({first_path_name}: {first_reason})</numerusform>
@@ -18752,13 +18872,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} exercises</source>
-            <translation type="unfinished">
-                <numerusform>{n} Übung</numerusform>
-                <numerusform>{n} Übungen</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
             <source>{n} files are copies and left out</source>
             <translation type="unfinished">
                 <numerusform>{n} Datei ist eine Kopie und wird ausgelassen</numerusform>
@@ -18815,6 +18928,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paar von Versuchen</numerusform>
+                <numerusform>{n} Paare von Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} people</source>
             <translation type="unfinished">
                 <numerusform>{n} Person</numerusform>
@@ -18854,13 +18974,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Station wartet auf Einlass: Stationen, Jetzt austauschen</numerusform>
                 <numerusform>{n} Stationen warten auf Einlass: Stationen, Jetzt austauschen</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} students</source>
-            <translation type="unfinished">
-                <numerusform>{n} Teilnehmer</numerusform>
-                <numerusform>{n} Teilnehmer</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20043,6 +20156,114 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
             <translation type="unfinished">{name} enthält Tabellen eines anderen Programms ({table}): dem Speicher der Schule eine eigene Datenbank geben</translation>
+        </message>
+        <message>
+            <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>
+            <translation type="unfinished">{rule!r} ist keine Regel für Noten: best, first, last nehmen, oder mean:3 für das Mittel der letzten drei</translation>
+        </message>
+        <message>
+            <source>no {kind} is known of {students}: give it by a roster with the column {kind}, or choose another identifier</source>
+            <translation type="unfinished">von {students} ist kein Eintrag {kind} bekannt: ihn mit einer Teilnehmerliste mit der Spalte {kind} angeben, oder eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>Moodle changes {identifiers} as it imports, for it begins with = + - or @: choose another identifier</source>
+            <translation type="unfinished">Moodle verändert {identifiers} beim Import, denn es beginnt mit = + - oder @: eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>{students} have the same {kind}, {identifier!r}: correct it by a roster, or choose another identifier</source>
+            <translation type="unfinished">{students} haben denselben Eintrag {kind}, {identifier!r}: ihn mit einer Teilnehmerliste berichtigen, oder eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>the best of several attempts lies above what a student usually does: the best of 5 equal attempts by {share:.1f} standard deviations; how much attempts vary here is not known yet ({pairs})</source>
+            <translation type="unfinished">der beste von mehreren Versuchen liegt über dem, was jemand gewöhnlich leistet: der beste von 5 gleich guten um {share:.1f} Standardabweichungen; wie stark Versuche hier schwanken, ist noch nicht bekannt ({pairs})</translation>
+        </message>
+        <message>
+            <source>attempts of one student vary by {sd:.1f} points from one to the next (standard deviation, {pairs})</source>
+            <translation type="unfinished">Versuche einer Person schwanken von einem zum nächsten um {sd:.1f} Punkte (Standardabweichung, {pairs})</translation>
+        </message>
+        <message>
+            <source>so the best of 5 equal attempts is expected {five:.1f} points above their mean, and these grades {mean:.1f} on average, up to {high:.1f} for {attempts} attempts: who tries more often is graded higher without being better</source>
+            <translation type="unfinished">so liegt der beste von 5 gleich guten Versuchen im Mittel {five:.1f} Punkte über ihrem Durchschnitt, und diese Noten im Schnitt {mean:.1f}, bis zu {high:.1f} bei {attempts} Versuchen: wer es öfter versucht, wird höher benotet, ohne besser zu sein</translation>
+        </message>
+        <message>
+            <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
+            <translation type="unfinished">so ist eine Note nach dieser Regel um {sd:.1f} Punkte unsicher, und sie steigt nicht durch Zufall mit der Zahl der Versuche</translation>
+        </message>
+        <message>
+            <source>the only attempt</source>
+            <translation type="unfinished">der einzige Versuch</translation>
+        </message>
+        <message>
+            <source>not passed yet</source>
+            <translation type="unfinished">noch nicht bestanden</translation>
+        </message>
+        <message>
+            <source>the instructor: {comment}</source>
+            <translation type="unfinished">der Kursleiter: {comment}</translation>
+        </message>
+        <message>
+            <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
+            <translation type="unfinished">{address!r} kann nicht am Anfang der Kennungen von Aussagen stehen: eine eigene Adresse angeben, etwa https://training.hospital.example</translation>
+        </message>
+        <message>
+            <source>{path} is damaged: move it away, and put the statements into the queue again</source>
+            <translation type="unfinished">{path} ist beschädigt: die Datei wegräumen und die Aussagen erneut in die Warteschlange stellen</translation>
+        </message>
+        <message>
+            <source>Report of the group</source>
+            <translation type="unfinished">Bericht der Gruppe</translation>
+        </message>
+        <message>
+            <source>Gradebook for Moodle</source>
+            <translation type="unfinished">Notenbuch für Moodle</translation>
+        </message>
+        <message>
+            <source>the best attempt</source>
+            <translation type="unfinished">der beste Versuch</translation>
+        </message>
+        <message>
+            <source>the first attempt</source>
+            <translation type="unfinished">der erste Versuch</translation>
+        </message>
+        <message>
+            <source>the last attempt</source>
+            <translation type="unfinished">der letzte Versuch</translation>
+        </message>
+        <message>
+            <source>the mean of the last attempts</source>
+            <translation type="unfinished">das Mittel der letzten Versuche</translation>
+        </message>
+        <message>
+            <source>A column of feedback too</source>
+            <translation type="unfinished">Auch eine Spalte mit Rückmeldung</translation>
+        </message>
+        <message>
+            <source>user name (else the pseudonym)</source>
+            <translation type="unfinished">Anmeldename (sonst das Pseudonym)</translation>
+        </message>
+        <message>
+            <source>e-mail address</source>
+            <translation type="unfinished">E-Mail-Adresse</translation>
+        </message>
+        <message>
+            <source>ID number</source>
+            <translation type="unfinished">ID-Nummer</translation>
+        </message>
+        <message>
+            <source>empty: a line to fill in by hand</source>
+            <translation type="unfinished">leer: eine Linie zum Ausfüllen von Hand</translation>
+        </message>
+        <message>
+            <source>A mark is</source>
+            <translation type="unfinished">Eine Note ist</translation>
+        </message>
+        <message>
+            <source>How many</source>
+            <translation type="unfinished">Wie viele</translation>
+        </message>
+        <message>
+            <source>Moodle knows students by</source>
+            <translation type="unfinished">Moodle kennt Teilnehmer nach</translation>
         </message>
     </context>
 </TS>

@@ -996,8 +996,28 @@
             <translation type="unfinished">--student vaut pour pdf ; les tableaux contiennent tout le monde</translation>
         </message>
         <message>
+            <source>{identifier}: Moodle knows students by username, email or idnumber</source>
+            <translation type="unfinished">{identifier} : Moodle connaît les étudiants par username, email ou idnumber</translation>
+        </message>
+        <message>
+            <source>--identifier and --feedback are for moodle, --grade for moodle and pdf</source>
+            <translation type="unfinished">--identifier et --feedback valent pour moodle, --grade pour moodle et pdf</translation>
+        </message>
+        <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
             <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} de {students:#1 étudiant|# étudiants|0 étudiant} dans {files}</translation>
+        </message>
+        <message>
+            <source>nothing to do: give --out FILE, --queue, or both</source>
+            <translation type="unfinished">rien à faire : donner --out FICHIER, --queue, ou les deux</translation>
+        </message>
+        <message>
+            <source>{statements:#1 statement|# statements}{files:?, written to {files}|}</source>
+            <translation type="unfinished">{statements:#1 déclaration|# déclarations}{files:?, dans {files}|}</translation>
+        </message>
+        <message>
+            <source>queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">file d’attente : {new:#} de plus, {voided:#} annulées, {waiting:#1 attend|# attendent} l’envoi</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
@@ -6360,8 +6380,32 @@
             <translation type="unfinished">{pseudonym!r} ressemble à une clé de ce programme : choisissez un autre pseudonyme</translation>
         </message>
         <message>
+            <source>{email!r} is no e-mail address: correct it</source>
+            <translation type="unfinished">{email!r} n’est pas une adresse de courriel : à corriger</translation>
+        </message>
+        <message>
+            <source>the {kind} {identifier!r} is that of {holder!r} too: correct one of them</source>
+            <translation type="unfinished">{kind} {identifier!r} est aussi à {holder!r} : corriger l’une des deux lignes</translation>
+        </message>
+        <message>
             <source>{pseudonym!r} stands there twice: delete one row</source>
             <translation type="unfinished">{pseudonym!r} y figure deux fois : supprimez une ligne</translation>
+        </message>
+        <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} contient la même chose qu’une autre : en supprimer une</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">ligne 1 : c’est une table de Moodle sans noms d’utilisateur ni numéros d’identification, et l’écran ne montre ni noms ni adresses de courriel : ajouter une colonne pseudonym, ou l’exporter avec le nom d’utilisateur</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : l’en-tête doit avoir la colonne pseudonym ; les colonnes sont {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} n’est pas connue ; les colonnes sont {wanted}</translation>
         </message>
         <message>
             <source>the cameras see the needle again: the depth is measured</source>
@@ -15049,6 +15093,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tous les exercices</translation>
         </message>
         <message>
+            <source>Venue</source>
+            <translation type="unfinished">Lieu</translation>
+        </message>
+        <message>
             <source>Everybody</source>
             <translation type="unfinished">Tous</translation>
         </message>
@@ -15288,8 +15336,56 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rapport d’un groupe</translation>
         </message>
         <message>
+            <source>Mark</source>
+            <translation type="unfinished">Note</translation>
+        </message>
+        <message>
+            <source>points of the best attempt, of 100</source>
+            <translation type="unfinished">points du meilleur essai, sur 100</translation>
+        </message>
+        <message>
+            <source>points of the first attempt, of 100</source>
+            <translation type="unfinished">points du premier essai, sur 100</translation>
+        </message>
+        <message>
+            <source>points of the last attempt, of 100</source>
+            <translation type="unfinished">points du dernier essai, sur 100</translation>
+        </message>
+        <message>
+            <source>mean of the points of the last {n} attempts, of 100</source>
+            <translation type="unfinished">moyenne des points des {n} derniers essais, sur 100</translation>
+        </message>
+        <message>
+            <source>{first} to {last}</source>
+            <translation type="unfinished">{first} au {last}</translation>
+        </message>
+        <message>
+            <source>Attempts allowed</source>
+            <translation type="unfinished">Essais permis</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Pas encore d’essai d’un étudiant connecté.</translation>
+        </message>
+        <message>
+            <source>median</source>
+            <translation type="unfinished">médiane</translation>
+        </message>
+        <message>
+            <source>✔ passed at least once. In brackets the attempts that count: scored, comparable, by a person, not declared void; – (2): two that do not count.</source>
+            <translation type="unfinished">✔ réussi au moins une fois. Entre parenthèses les essais qui comptent : notés, comparables, faits par une personne, non déclarés nuls ; – (2) : deux qui ne comptent pas.</translation>
+        </message>
+        <message>
+            <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
+            <translation type="unfinished">Les signatures valent pour les {pages} pages : les notes sont sur celles qui suivent.</translation>
+        </message>
+        <message>
+            <source>Place, date</source>
+            <translation type="unfinished">Lieu, date</translation>
+        </message>
+        <message>
+            <source>Head of training</source>
+            <translation type="unfinished">Responsable de la formation</translation>
         </message>
         <message>
             <source>Report of a student</source>
@@ -15306,10 +15402,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>passed</source>
             <translation type="unfinished">réussi</translation>
-        </message>
-        <message>
-            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">{students}, {exercises}, {attempts} : notés, comparables, par une personne, non déclarés nuls.</translation>
         </message>
         <message>
             <source>{n} of {m}</source>
@@ -18633,6 +18725,34 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>best of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>meilleur de {n} essai</numerusform>
+                <numerusform>meilleur de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>first of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>premier de {n} essai</numerusform>
+                <numerusform>premier de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>last of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>dernier de {n} essai</numerusform>
+                <numerusform>dernier de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>mean of the last {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>moyenne du dernier {n} essai</numerusform>
+                <numerusform>moyenne des {n} derniers essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
                 <numerusform>aucune série DICOM dans {listing_path} : {n} fichier ignoré ({first_path_name} : {first_reason})</numerusform>
@@ -18752,13 +18872,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} exercises</source>
-            <translation type="unfinished">
-                <numerusform>{n} exercice</numerusform>
-                <numerusform>{n} exercices</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
             <source>{n} files are copies and left out</source>
             <translation type="unfinished">
                 <numerusform>{n} fichier est une copie et est écarté</numerusform>
@@ -18815,6 +18928,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} paire d’essais</numerusform>
+                <numerusform>{n} paires d’essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} people</source>
             <translation type="unfinished">
                 <numerusform>{n} personne</numerusform>
@@ -18854,13 +18974,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} poste attend d’être admis : Postes, Échanger maintenant</numerusform>
                 <numerusform>{n} postes attendent d’être admis : Postes, Échanger maintenant</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} students</source>
-            <translation type="unfinished">
-                <numerusform>{n} étudiant</numerusform>
-                <numerusform>{n} étudiants</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20043,6 +20156,114 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
             <translation type="unfinished">{name} contient les tables d’un autre programme ({table}) : donnez à la base de l’école une base à elle</translation>
+        </message>
+        <message>
+            <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>
+            <translation type="unfinished">{rule!r} n’est pas une règle de notation : prendre best, first, last, ou mean:3 pour la moyenne des trois derniers</translation>
+        </message>
+        <message>
+            <source>no {kind} is known of {students}: give it by a roster with the column {kind}, or choose another identifier</source>
+            <translation type="unfinished">aucun champ {kind} connu pour {students} : le donner par une liste avec la colonne {kind}, ou choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>Moodle changes {identifiers} as it imports, for it begins with = + - or @: choose another identifier</source>
+            <translation type="unfinished">Moodle modifie {identifiers} à l’importation, car le début est = + - ou @ : choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>{students} have the same {kind}, {identifier!r}: correct it by a roster, or choose another identifier</source>
+            <translation type="unfinished">{students} ont le même champ {kind}, {identifier!r} : le corriger par une liste, ou choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>the best of several attempts lies above what a student usually does: the best of 5 equal attempts by {share:.1f} standard deviations; how much attempts vary here is not known yet ({pairs})</source>
+            <translation type="unfinished">le meilleur de plusieurs essais dépasse ce qu’un étudiant fait d’ordinaire : le meilleur de 5 essais égaux de {share:.1f} écarts-types ; combien les essais varient ici n’est pas encore connu ({pairs})</translation>
+        </message>
+        <message>
+            <source>attempts of one student vary by {sd:.1f} points from one to the next (standard deviation, {pairs})</source>
+            <translation type="unfinished">les essais d’un étudiant varient de {sd:.1f} points d’un essai au suivant (écart-type, {pairs})</translation>
+        </message>
+        <message>
+            <source>so the best of 5 equal attempts is expected {five:.1f} points above their mean, and these grades {mean:.1f} on average, up to {high:.1f} for {attempts} attempts: who tries more often is graded higher without being better</source>
+            <translation type="unfinished">le meilleur de 5 essais égaux est donc attendu {five:.1f} points au-dessus de leur moyenne, et ces notes {mean:.1f} en moyenne, jusqu’à {high:.1f} pour {attempts} essais : qui essaie plus souvent est noté plus haut sans être meilleur</translation>
+        </message>
+        <message>
+            <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
+            <translation type="unfinished">une note selon cette règle est donc incertaine de {sd:.1f} points, et ne monte pas par hasard avec le nombre d’essais</translation>
+        </message>
+        <message>
+            <source>the only attempt</source>
+            <translation type="unfinished">l’unique essai</translation>
+        </message>
+        <message>
+            <source>not passed yet</source>
+            <translation type="unfinished">pas encore réussi</translation>
+        </message>
+        <message>
+            <source>the instructor: {comment}</source>
+            <translation type="unfinished">le formateur : {comment}</translation>
+        </message>
+        <message>
+            <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
+            <translation type="unfinished">{address!r} ne peut pas commencer les identifiants des déclarations : donner une adresse qui vous appartient, comme https://training.hospital.example</translation>
+        </message>
+        <message>
+            <source>{path} is damaged: move it away, and put the statements into the queue again</source>
+            <translation type="unfinished">{path} est endommagé : le retirer, et remettre les déclarations dans la file d’attente</translation>
+        </message>
+        <message>
+            <source>Report of the group</source>
+            <translation type="unfinished">Rapport du groupe</translation>
+        </message>
+        <message>
+            <source>Gradebook for Moodle</source>
+            <translation type="unfinished">Carnet de notes pour Moodle</translation>
+        </message>
+        <message>
+            <source>the best attempt</source>
+            <translation type="unfinished">le meilleur essai</translation>
+        </message>
+        <message>
+            <source>the first attempt</source>
+            <translation type="unfinished">le premier essai</translation>
+        </message>
+        <message>
+            <source>the last attempt</source>
+            <translation type="unfinished">le dernier essai</translation>
+        </message>
+        <message>
+            <source>the mean of the last attempts</source>
+            <translation type="unfinished">la moyenne des derniers essais</translation>
+        </message>
+        <message>
+            <source>A column of feedback too</source>
+            <translation type="unfinished">Avec une colonne de commentaires</translation>
+        </message>
+        <message>
+            <source>user name (else the pseudonym)</source>
+            <translation type="unfinished">nom d’utilisateur (sinon le pseudonyme)</translation>
+        </message>
+        <message>
+            <source>e-mail address</source>
+            <translation type="unfinished">adresse de courriel</translation>
+        </message>
+        <message>
+            <source>ID number</source>
+            <translation type="unfinished">numéro d’identification</translation>
+        </message>
+        <message>
+            <source>empty: a line to fill in by hand</source>
+            <translation type="unfinished">vide : une ligne à remplir à la main</translation>
+        </message>
+        <message>
+            <source>A mark is</source>
+            <translation type="unfinished">Une note est</translation>
+        </message>
+        <message>
+            <source>How many</source>
+            <translation type="unfinished">Combien</translation>
+        </message>
+        <message>
+            <source>Moodle knows students by</source>
+            <translation type="unfinished">Moodle connaît les étudiants par</translation>
         </message>
     </context>
 </TS>

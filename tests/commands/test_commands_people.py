@@ -264,6 +264,7 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("results", "board"),
         ("results", "curve", "Ada", "liver-01"),
         ("results", "export", "tidy", "--out", out),
+        ("results", "xapi", "--home", "https://x.example", "--out", out),
         ("exercise", "new", "Mine", "--out", out),
         ("exercise", "pack", "first-insertion", "--out", out),
         ("exercise", "unpack", out),

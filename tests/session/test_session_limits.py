@@ -3,7 +3,7 @@
 from itertools import permutations
 
 import pytest
-from app.session.said import CountedAttempt
+from app.session.station_results import CountedAttempt
 
 from app.session.course import Course, CourseItem
 from app.session.limits import beyond_limits
