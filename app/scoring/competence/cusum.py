@@ -14,7 +14,7 @@ below 0, and signals when the sum reaches a limit h (Page 1954, Biometrika 41:10
   *still competent*, p0. Alternative: *not any more*, p1. Signs are turned: a failure adds
   log(p1/p0), a pass takes log((1 - p0)/(1 - p1)) away; the signal says "relapse".
 
-Some print the score downwards, min(0, S - W), and the limit as -h (Biau et al. 2008): the same test.
+Some print the score downwards, min(0, S - W), with the limit at -h: the same test.
 """
 
 from __future__ import annotations

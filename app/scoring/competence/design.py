@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import ceil
+from math import ceil, sqrt
+from statistics import NormalDist
 from typing import Final
 
 import numpy as np
@@ -28,7 +29,7 @@ NEAR: Final = 0.01
 _FURTHER: Final = 100
 """So many steps above a limit that keeps both errors are tried for some nearer what was asked."""
 
-_BELOW: Final = 0.85
+_BELOW: Final = 0.9
 """From this part of it on: errors go in steps, so that a lower limit may keep both as well."""
 
 
@@ -123,6 +124,8 @@ def head_start(watch_limit: float) -> float:
 
 def _planned(weights: Weights, rule: CompetenceRule) -> tuple[float, int, float, float]:
     """Return limit, attempts, and the two errors that are reached."""
+    if _fewest(rule) > MOST_ATTEMPTS:
+        raise _too_near(rule)
     low, high = 0, 1
     while not _kept(weights, rule, high):  # doubled until it can be kept, then halved
         low, high = high, 2 * high
@@ -144,6 +147,23 @@ def _planned(weights: Weights, rule: CompetenceRule) -> tuple[float, int, float,
     if least is None:
         raise _too_near(rule)
     return least
+
+
+def _fewest(rule: CompetenceRule) -> float:
+    """Return about how many attempts any test needs: the likelihood ratio's, all at once.
+
+    No test of so many attempts has smaller errors (Neyman and Pearson 1933); by the normal
+    approximation of the binomial distribution.
+    """
+    normal = NormalDist()
+    apart = sum(
+        normal.inv_cdf(1.0 - error) * sqrt(rate * (1.0 - rate))
+        for error, rate in (
+            (rule.false_alarm, rule.unacceptable),
+            (rule.missed, rule.acceptable),
+        )
+    )
+    return float((apart / (rule.unacceptable - rule.acceptable)) ** 2)
 
 
 def _kept(

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from math import ceil
 from typing import Any
@@ -82,35 +82,37 @@ class Competence:
         }
 
 
-@dataclass(frozen=True, slots=True)
 class _Walk:
-    """The tests as they stand: state, score, attempts since the learning test began."""
+    """The tests as they go: state, score, attempts since the learning test began."""
 
-    plan: Design
-    state: CompetenceState = CompetenceState.NOT_YET
-    score: float = 0.0
-    learning: int = 0
+    __slots__ = ("learning", "plan", "score", "state")
 
-    def rested(self) -> _Walk:
-        """Return it after a gap."""
+    def __init__(self, plan: Design) -> None:
+        self.plan = plan
+        self.state = CompetenceState.NOT_YET
+        self.score = 0.0
+        self.learning = 0
+
+    def rest(self) -> None:
+        """Go on after a gap."""
         if self.state is CompetenceState.COMPETENT:
-            return replace(self, score=max(self.score, head_start(self.plan.watch_limit)))
-        return replace(self, score=0.0)
+            self.score = max(self.score, head_start(self.plan.watch_limit))
+        else:
+            self.score = 0.0
 
-    def attempted(self, passed: bool) -> tuple[_Walk, float]:
-        """Return it after an attempt, and the score as a part of the limit."""
-        plan = self.plan
-        if self.state is CompetenceState.COMPETENT:
-            score = plan.watching.after(self.score, passed)
-            part = score / plan.watch_limit
-            if score >= plan.watch_limit:
-                return _Walk(plan, CompetenceState.RELAPSE), part
-            return replace(self, score=score), part
-        score, count = plan.learning.after(self.score, passed), self.learning + 1
-        part = score / plan.limit
-        if score >= plan.limit:
-            return _Walk(plan, CompetenceState.COMPETENT, 0.0, count), part
-        return replace(self, score=score, learning=count), part
+    def attempt(self, passed: bool) -> float:
+        """Take an attempt in; return the score as a part of the limit of the test that ran."""
+        plan, watched = self.plan, self.state is CompetenceState.COMPETENT
+        weights, limit = (
+            (plan.watching, plan.watch_limit) if watched else (plan.learning, plan.limit)
+        )
+        self.score = score = weights.after(self.score, passed)
+        self.learning += not watched
+        if score >= limit:
+            self.score = 0.0
+            self.state = CompetenceState.RELAPSE if watched else CompetenceState.COMPETENT
+            self.learning = 0 if watched else self.learning
+        return score / limit
 
 
 def competence(
@@ -142,14 +144,13 @@ def competence(
     walk, changes, scores = _Walk(plan), [], []
     for number, one in enumerate(passed, 1):
         if times and number > 1 and times[number - 1] - times[number - 2] >= gap:
-            walk = walk.rested()
+            walk.rest()
         before = walk.state
-        walk, part = walk.attempted(bool(one))
-        scores.append(part)
+        scores.append(walk.attempt(bool(one)))
         if walk.state is not before:
             changes.append(Change(number, walk.state))
     if times and now is not None and now - times[-1] >= gap:
-        walk = walk.rested()
+        walk.rest()
     competent = walk.state is CompetenceState.COMPETENT
     missing = plan.limit - walk.score
     return Competence(

@@ -22,7 +22,8 @@ INTERVAL: Final = 0.8
 _AHEAD: Final = 3
 """It looks so many times the planned attempts ahead."""
 
-_ANGLES: Final = 48
+_ANGLES: Final = 32
+"""Rates over which is averaged."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +64,8 @@ def _forecast(plan: Design, score: float, failures: int, attempts: int) -> Forec
 def rates_of(failures: int, attempts: int) -> tuple[FloatArray, FloatArray]:
     """Return failure rates and how likely each is, after so many failures in so many attempts.
 
-    With p = sin² a the prior p^(-1/2) (1 - p)^(-1/2) dp is even in a, and what is left,
-    p^k (1 - p)^(n - k), is periodic: means over evenly spaced angles are those over the
-    distribution, but for the rounding of doubles.
+    With p = sin² a the prior p^(-1/2) (1 - p)^(-1/2) dp is even in a: of evenly spaced angles, m of
+    them, means are exact for polynomials in p of a degree below 2 m (Gauss and Chebyshev).
     """
     angles = (np.arange(_ANGLES) + 0.5) * (0.5 * np.pi / _ANGLES)
     logarithms = 2.0 * (

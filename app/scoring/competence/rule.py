@@ -1,4 +1,4 @@
-"""What a course calls competent: two failure rates and two errors, with defaults and their reason."""
+"""The rule by which a course calls somebody competent: two failure rates, two errors, defaults."""
 
 from __future__ import annotations
 

@@ -18,8 +18,8 @@ from app.core.arrays import FloatArray, read_only
 from app.core.messages import sentence
 from app.scoring.competence.cusum import CompetenceError, Weights
 
-MOST_ATTEMPTS: Final = 2000
-"""No test is planned, and no run length told, over more attempts."""
+MOST_ATTEMPTS: Final = 300
+"""No test is planned, and no run length told, over more attempts of one person at one skill."""
 
 _DIGITS: Final = 9
 """Scores that agree to so many decimals are one state."""
@@ -62,25 +62,24 @@ def signalled_by(
             )
         )
     upwards, downwards = _states(weights, limit, attempts, start)
-    rates = np.atleast_1d(np.asarray(failure_rates, float))
+    rates: FloatArray = np.atleast_1d(np.asarray(failure_rates, float))
     gaining = np.array([weights.chance(rate) for rate in rates])[:, None]
-    going_on = np.zeros((len(rates), len(upwards)))
+    count, above = len(upwards), upwards < 0
+    rows = np.arange(len(rates))[:, None]
+    targets = np.concatenate(  # of a gain, then of a loss, from each score at each rate
+        [rows * count + np.maximum(upwards, 0), rows * count + np.maximum(downwards, 0)], axis=None
+    )
+    going_on = np.zeros((len(rates), count))
     going_on[:, 0] = 1.0
     signalled = np.zeros((len(rates), attempts + 1))
-    above = upwards < 0
-    up, down = np.maximum(upwards, 0), np.maximum(downwards, 0)
     for attempt in range(1, attempts + 1):
         gained = gaining * going_on
         new = signalled[:, attempt - 1] + gained[:, above].sum(axis=1)
         signalled[:, attempt] = np.minimum(new, 1.0)
         gained[:, above] = 0.0
-        lost = (1.0 - gaining) * going_on
-        going_on = np.array(
-            [
-                np.bincount(up, one, len(up)) + np.bincount(down, other, len(up))
-                for one, other in zip(gained, lost, strict=True)
-            ]
-        )
+        moved = np.concatenate([gained, (1.0 - gaining) * going_on], axis=None)
+        counted = np.bincount(targets, moved, going_on.size)
+        going_on = counted.astype(float, copy=False).reshape(going_on.shape)
     return read_only(signalled[0] if np.ndim(failure_rates) == 0 else signalled)
 
 
@@ -96,7 +95,7 @@ def mean_run_length(weights: Weights, limit: float, failure_rate: float) -> floa
     chance = weights.chance(failure_rate)
     if chance <= 0.0:
         return inf
-    share = 1.0 - signalled_by(weights, limit, failure_rate, MOST_ATTEMPTS // 4)
+    share = 1.0 - signalled_by(weights, limit, failure_rate, MOST_ATTEMPTS)
     last = int(np.argmax(share < _SETTLED)) or len(share) - 1
     if share[last] < _SETTLED:
         return float(share[: last + 1].sum())

@@ -35,9 +35,7 @@ def _more(standing: Competence) -> Sentence:
     if likely.low is None:
         return sentence("at least {fewest} more (hardly, as the last ones went)", fewest=fewest)
     if likely.high is None:
-        return sentence(
-            "at least {fewest} more ({low} or more)", fewest=fewest, low=likely.low
-        )
+        return sentence("at least {fewest} more ({low} or more)", fewest=fewest, low=likely.low)
     return sentence(
         "at least {fewest} more ({low} to {high})",
         fewest=fewest,

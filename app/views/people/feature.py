@@ -289,8 +289,8 @@ class PeopleFeature(Feature):
         look = self._look
         if look is None:
             return
-        points = look.board.curve(key, exercise)
-        dialog = CurveDialog(self._named(key, exercise), points, self._shell.dialog_parent)
+        parent = self._shell.dialog_parent
+        dialog = CurveDialog(self._named(key, exercise), look.board, key, exercise, parent)
         dialog.attempt_chosen.connect(self.attempt_wanted)
         dialog.attempts.clicked.connect(lambda: self._show_attempts(key, exercise))
         dialog.attempts.clicked.connect(dialog.accept)

@@ -31,14 +31,26 @@ from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.exchange.errors import ExportError
 from app.exchange.results import Results
+from app.scoring.competence import Competence, CompetenceState
 from app.scoring.tolerance import Band
 from app.session.board import BoardCell, CurvePoint
 from app.session.people import Person
 from app.views.debrief.report import BAND_INKS, DIM, HEIGHT, INK, LINE, MARGIN, RULE, WIDTH, font
 from app.views.kit.text import date_text, disclaimer, listing, moment, number, tr, tr_n, translated
+from app.views.people.competence_marks import (
+    competence_line,
+    draw_changes,
+    mark_words,
+    rule_words,
+)
 
 PASSED, MEDIAN = BAND_INKS[Band.GOOD], "#8a5a00"
+RELAPSED: Final = BAND_INKS[Band.FAIL]
+INKS: Final = {CompetenceState.COMPETENT: PASSED, CompetenceState.RELAPSE: RELAPSED}
+"""Of how somebody stands."""
 _ROW: Final = 17.0
+_MARK: Final = 11.0
+"""Height of a line below a row that marks who is competent [pt]."""
 _FOOT: Final = 26.0
 _NAME: Final = 110.0
 """Width of the first column of the board [pt]."""
@@ -174,6 +186,8 @@ def group_report(
             ),
             colour=DIM,
         )
+        if board.items:
+            sheet.paragraph(rule_words(board), colour=DIM)
         sheet.y += 8.0
         room = int((WIDTH - 2.0 * MARGIN - _NAME) // _CELL)
         for first in range(0, len(board.items), room):
@@ -200,10 +214,14 @@ def student_report(
             sheet.paragraph(tr("Group: {groups}", groups=listing(person.groups)), colour=DIM)
         sheet.y += 6.0
         _exercises(sheet, results, person, titles)
+        if board.counted:
+            sheet.paragraph(rule_words(board), colour=DIM)
+            sheet.y += 8.0
         for item in board.items:
             points = board.curve(person.key, item.exercise)
             if points:
-                _curve(sheet, titles.get(item.exercise, item.exercise), points)
+                standing = board.competence(person.key, item.exercise)
+                _curve(sheet, titles.get(item.exercise, item.exercise), points, standing)
         _remarks(sheet, results, person, titles)
 
     return _pdf(fill, heading)
@@ -263,13 +281,18 @@ def _block(
     sheet.need(4.0 * _ROW)
     head()
     for person in board.students:
-        if sheet.need(_ROW):
+        if sheet.need(_ROW + _MARK):
             head()
         sheet.text(MARGIN, _who(person, results), width=_NAME - 6.0)
         for place, item in enumerate(items):
             cell = board.cells[person.key, item.exercise]
             words, colour = _cell(cell), PASSED if cell.passed else INK
             sheet.text(MARGIN + _NAME + place * width, words, 9.5, colour, width=width - 6.0)
+        marks = [mark_words(board, person.key, item.exercise) for item in items]
+        if any(marks):
+            sheet.y += _MARK
+            for place, words in enumerate(marks):
+                sheet.text(MARGIN + _NAME + place * width, words, 8.0, DIM, width=width - 6.0)
         sheet.y += _ROW
     if sheet.need(2.0 * _ROW):
         head()
@@ -307,7 +330,7 @@ def _exercises(sheet: _Sheet, results: Results, person: Person, titles: Mapping[
 
     head()
     for item in results.board.items:
-        if sheet.need(2.0 * _ROW):
+        if sheet.need(3.0 * _ROW):
             head()
         cell = results.board.cells[person.key, item.exercise]
         named = titles.get(item.exercise, item.exercise) + f", v{item.version}"
@@ -318,6 +341,13 @@ def _exercises(sheet: _Sheet, results: Results, person: Person, titles: Mapping[
             colour = PASSED if cell.passed and place == 5 else INK
             sheet.text(MARGIN + left, words, colour=colour, width=180.0 if not place else 60.0)
         sheet.y += _ROW
+        standing = results.board.competence(person.key, item.exercise)
+        if standing is not None:
+            colour = INKS.get(standing.state, DIM)
+            words = competence_line(results.board, person.key, item.exercise)
+            sheet.y -= 3.0
+            sheet.text(MARGIN + 10.0, words, 8.5, colour, width=460.0)
+            sheet.y += _ROW - 3.0
         if cell.why:
             why = "; ".join(f"{n} {translated(why)}" for why, n in cell.why)
             sheet.y -= 3.0
@@ -326,7 +356,9 @@ def _exercises(sheet: _Sheet, results: Results, person: Person, titles: Mapping[
     sheet.y += _ROW
 
 
-def _curve(sheet: _Sheet, title: str, points: Sequence[CurvePoint]) -> None:
+def _curve(
+    sheet: _Sheet, title: str, points: Sequence[CurvePoint], standing: Competence | None
+) -> None:
     """Draw points over the attempts, with the best until then and the moving median."""
     height = 110.0
     sheet.need(height + 40.0)
@@ -357,6 +389,8 @@ def _curve(sheet: _Sheet, title: str, points: Sequence[CurvePoint]) -> None:
         painter.setPen(QPen(QColor(ink), 1.0, style))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawPolyline(QPolygonF([place(n, value) for n, value in enumerate(values, 1)]))
+    painter.setFont(font(7.5))
+    draw_changes(painter, standing, place, (PASSED, RELAPSED))
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(LINE))
     size = 2.2 if len(points) < 80 else 1.2
