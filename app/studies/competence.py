@@ -97,7 +97,7 @@ PUBLISHED: Final = (
 """Of the R package cusum (Hubig, lhubig/cusum): what its pages and tests print."""
 
 TRUTHS: Final = ((0.8, 0.05, 3.0), (0.8, 0.05, 6.0), (0.8, 0.05, 12.0), (0.6, 0.10, 8.0))
-"""Hidden failure rates: at the first attempt, in the end, attempts in which the rest falls to 1/e."""
+"""Hidden failure rates: first, last, and in how many attempts what is between falls to 1/e."""
 
 
 def signals(
@@ -249,7 +249,7 @@ def forecasts(students: int, rng: np.random.Generator) -> Sheet:
     Of the last row rates are drawn from what the forecast supposes of them before any attempt: its
     share is that which the interval states, or more, since attempts are whole numbers.
     """
-    plan, rows = design(), []
+    plan, rows = design(), list[tuple[Cell, ...]]()
     for rate in (0.05, 0.1, 0.2, 0.3, 0.4, None):
         counts = []
         for before in (8, 16):
@@ -257,9 +257,10 @@ def forecasts(students: int, rng: np.random.Generator) -> Sheet:
             held = [_foretold(plan, before, one, rng) for one in rates]
             known = [one for one in held if one is not None]
             counts.append(_figure(sum(known) / len(known)))
-        rows.append(("drawn" if rate is None else rate, *counts))
+        shown: Cell = "drawn" if rate is None else rate
+        rows.append((shown, *counts))
     columns = ("failure rate", "after 8 attempts", "after 16 attempts")
-    title = f"Students whose attempts more lay in the interval ({INTERVAL:.0%} stated)"
+    title = f"Forecasts of attempts more that held ({INTERVAL:.0%} stated)"
     return Sheet("forecasts", title, columns, tuple(rows))
 
 
