@@ -230,8 +230,7 @@ def learning_curves(students: int, rng: np.random.Generator) -> Sheet:
 
 def relapses(students: int, rng: np.random.Generator) -> Sheet:
     """Return how late a relapse is seen, with and without a gap before it."""
-    plan = design()
-    rows = []
+    plan, rows = design(), list[tuple[Cell, ...]]()
     for name, start in (("practising", 0.0), ("after a gap", head_start(plan.watch_limit))):
         rates = np.full(10 * plan.attempts, RULE.unacceptable)
         low, high, limit = RULE.acceptable, RULE.unacceptable, plan.watch_limit
