@@ -5581,7 +5581,7 @@
         </message>
         <message>
             <source>beyond the attempts that the course allows</source>
-            <translation type="unfinished" >über die Versuche hinaus, die der Kurs erlaubt</translation>
+            <translation type="unfinished">über die Versuche hinaus, die der Kurs erlaubt</translation>
         </message>
         <message>
             <source>not sealed by this station</source>
@@ -6145,7 +6145,7 @@
         </message>
         <message>
             <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
-            <translation type="unfinished" >über die {attempts} Versuche hinaus, die der Kurs {course} an allen Stationen zusammen erlaubt</translation>
+            <translation type="unfinished">über die {attempts} Versuche hinaus, die der Kurs {course} an allen Stationen zusammen erlaubt</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -12011,11 +12011,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>revoked</source>
-            <translation type="unfinished" >widerrufen</translation>
+            <translation type="unfinished">widerrufen</translation>
         </message>
         <message>
             <source> (station {name})</source>
-            <translation type="unfinished" > (Station {name})</translation>
+            <translation type="unfinished"> (Station {name})</translation>
         </message>
         <message>
             <source>Drill: {title}</source>
@@ -15038,11 +15038,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Stations</source>
-            <translation type="unfinished" >Stationen</translation>
+            <translation type="unfinished">Stationen</translation>
         </message>
         <message>
             <source>Bring the results of several stations together</source>
-            <translation type="unfinished" >Die Ergebnisse mehrerer Stationen zusammenführen</translation>
+            <translation type="unfinished">Die Ergebnisse mehrerer Stationen zusammenführen</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -15238,6 +15238,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>File name</source>
             <translation type="unfinished">Dateiname</translation>
+        </message>
+        <message>
+            <source>Competence</source>
+            <translation type="unfinished">Kompetenz</translation>
         </message>
         <message>
             <source>any</source>
@@ -18154,6 +18158,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ausgleich von Schwerkraft und Gelenkreibung</translation>
         </message>
         <message>
+            <source>Competence: LC-CUSUM, then CUSUM</source>
+            <translation type="unfinished">Kompetenz: LC-CUSUM, danach CUSUM</translation>
+        </message>
+        <message>
             <source>Contact of the tip with bone</source>
             <translation type="unfinished">Kontakt der Spitze mit Knochen</translation>
         </message>
@@ -19308,11 +19316,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>its signature is not that of the station {name}</source>
-            <translation type="unfinished" >die Signatur ist nicht die der Station {name}</translation>
+            <translation type="unfinished">die Signatur ist nicht die der Station {name}</translation>
         </message>
         <message>
             <source>the instructor has revoked the station that signed it</source>
-            <translation type="unfinished" >der Kursleiter hat die Station widerrufen, die signiert hat</translation>
+            <translation type="unfinished">der Kursleiter hat die Station widerrufen, die signiert hat</translation>
         </message>
         <message>
             <source>the signature beside it is that of another attempt</source>
@@ -19648,183 +19656,259 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
-            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?widerrufen|}</translation>
+            <translation type="unfinished">{name:20} {fingerprint} {revoked:?widerrufen|}</translation>
         </message>
         <message>
             <source>no other station is known here</source>
-            <translation type="unfinished" >keine andere Station ist hier bekannt</translation>
+            <translation type="unfinished">keine andere Station ist hier bekannt</translation>
         </message>
         <message>
             <source>this station is {name}: {fingerprint}</source>
-            <translation type="unfinished" >diese Station heißt {name}: {fingerprint}</translation>
+            <translation type="unfinished">diese Station heißt {name}: {fingerprint}</translation>
         </message>
         <message>
             <source>{name} is revoked: what it signed counts here only once admitted</source>
-            <translation type="unfinished" >{name} ist widerrufen: Was sie signiert hat, zählt hier nur, wenn es anerkannt ist</translation>
+            <translation type="unfinished">{name} ist widerrufen: Was sie signiert hat, zählt hier nur, wenn es anerkannt ist</translation>
         </message>
         <message>
             <source>Print it and lock it away: it opens the station's key in a backup.</source>
-            <translation type="unfinished" >Drucken Sie ihn aus und schließen Sie ihn weg: Er öffnet den Schlüssel der Station in einer Sicherung.</translation>
+            <translation type="unfinished">Drucken Sie ihn aus und schließen Sie ihn weg: Er öffnet den Schlüssel der Station in einer Sicherung.</translation>
         </message>
         <message>
             <source>this station has a new key: {fingerprint}</source>
-            <translation type="unfinished" >diese Station hat einen neuen Schlüssel: {fingerprint}</translation>
+            <translation type="unfinished">diese Station hat einen neuen Schlüssel: {fingerprint}</translation>
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
-            <translation type="unfinished" >{attempts:#1 Versuch|# Versuche} und {remarks:#1 Bemerkung|# Bemerkungen} in {files} geschrieben</translation>
+            <translation type="unfinished">{attempts:#1 Versuch|# Versuche} und {remarks:#1 Bemerkung|# Bemerkungen} in {files} geschrieben</translation>
         </message>
         <message>
             <source>✖ {} is left out: it was altered after it was signed</source>
-            <translation type="unfinished" >✖ {} ist ausgelassen: nach dem Signieren verändert</translation>
+            <translation type="unfinished">✖ {} ist ausgelassen: nach dem Signieren verändert</translation>
         </message>
         <message>
             <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
-            <translation type="unfinished" >{people:#1 Teilnehmer|# Teilnehmer} und {courses:#1 Kurs|# Kurse} in {files} geschrieben</translation>
+            <translation type="unfinished">{people:#1 Teilnehmer|# Teilnehmer} und {courses:#1 Kurs|# Kurse} in {files} geschrieben</translation>
         </message>
         <message>
             <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
-            <translation type="unfinished" >{station}: {attempts:#1 Versuch|# Versuche} hinzugefügt, {present} schon hier, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Teilnehmer|# Teilnehmer}, {courses:#1 Kurs|# Kurse}, {erased} gelöscht, {left_out} als gelöscht ausgelassen</translation>
+            <translation type="unfinished">{station}: {attempts:#1 Versuch|# Versuche} hinzugefügt, {present} schon hier, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Teilnehmer|# Teilnehmer}, {courses:#1 Kurs|# Kurse}, {erased} gelöscht, {left_out} als gelöscht ausgelassen</translation>
         </message>
         <message>
             <source>left out: {line}</source>
-            <translation type="unfinished" >ausgelassen: {line}</translation>
+            <translation type="unfinished">ausgelassen: {line}</translation>
         </message>
         <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
+            <translation type="unfinished">{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
         </message>
         <message>
             <source>cannot take in {source}: {reason} ({place})</source>
-            <translation type="unfinished" >{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
+            <translation type="unfinished">{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
         </message>
         <message>
             <source>the attempt {name} is another record here</source>
-            <translation type="unfinished" >der Versuch {name} ist hier eine andere Aufzeichnung</translation>
+            <translation type="unfinished">der Versuch {name} ist hier eine andere Aufzeichnung</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+            <translation type="unfinished">{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
         </message>
         <message>
             <source>{name} is another file here</source>
-            <translation type="unfinished" >{name} ist hier eine andere Datei</translation>
+            <translation type="unfinished">{name} ist hier eine andere Datei</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
+            <translation type="unfinished">{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
         </message>
         <message>
             <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished" >{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
+            <translation type="unfinished">{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} ist bei {name} beschädigt: Holen Sie sie neu von ihrer Station</translation>
+            <translation type="unfinished">{source} ist bei {name} beschädigt: Holen Sie sie neu von ihrer Station</translation>
         </message>
         <message>
             <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
-            <translation type="unfinished" >{source} enthält weder Ergebnisse noch den Kurs einer Station: Schreiben Sie die Datei dort neu mit `acus store results` oder `acus store station`</translation>
+            <translation type="unfinished">{source} enthält weder Ergebnisse noch den Kurs einer Station: Schreiben Sie die Datei dort neu mit `acus store results` oder `acus store station`</translation>
         </message>
         <message>
             <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
-            <translation type="unfinished" >{source} ist eine andere Datei von Acus ({kind!r:.40}): Geben Sie eine an, die `acus store results` oder `acus store station` geschrieben hat</translation>
+            <translation type="unfinished">{source} ist eine andere Datei von Acus ({kind!r:.40}): Geben Sie eine an, die `acus store results` oder `acus store station` geschrieben hat</translation>
         </message>
         <message>
             <source>{source} was written by a newer version of Acus: use that version here too</source>
-            <translation type="unfinished" >{source} stammt von einer neueren Version von Acus: Benutzen Sie diese Version auch hier</translation>
+            <translation type="unfinished">{source} stammt von einer neueren Version von Acus: Benutzen Sie diese Version auch hier</translation>
         </message>
         <message>
             <source>{source} was altered after its station signed it: fetch it anew from the station</source>
-            <translation type="unfinished" >{source} wurde verändert, nachdem die Station signiert hatte: Holen Sie die Datei neu von der Station</translation>
+            <translation type="unfinished">{source} wurde verändert, nachdem die Station signiert hatte: Holen Sie die Datei neu von der Station</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
-            <translation type="unfinished" >{source} kommt von der Station {name}, die der Kursleiter widerrufen hat: Nichts davon wird aufgenommen</translation>
+            <translation type="unfinished">{source} kommt von der Station {name}, die der Kursleiter widerrufen hat: Nichts davon wird aufgenommen</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
-            <translation type="unfinished" >{source} kommt von der Station {name}, die hier mit diesem Schlüssel nicht bekannt ist: Vergleichen Sie {fingerprint} dort mit `acus store stations` und nehmen Sie die Datei dann mit --trust auf</translation>
+            <translation type="unfinished">{source} kommt von der Station {name}, die hier mit diesem Schlüssel nicht bekannt ist: Vergleichen Sie {fingerprint} dort mit `acus store stations` und nehmen Sie die Datei dann mit --trust auf</translation>
         </message>
         <message>
             <source>no station and public key</source>
-            <translation type="unfinished" >keine Station mit öffentlichem Schlüssel</translation>
+            <translation type="unfinished">keine Station mit öffentlichem Schlüssel</translation>
         </message>
         <message>
             <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
-            <translation type="unfinished" >{name!r} kann nicht der Name einer Station sein: nur Buchstaben, Ziffern, Leerzeichen und . _ @ + -, höchstens 40, mit einem Buchstaben oder einer Ziffer am Anfang</translation>
+            <translation type="unfinished">{name!r} kann nicht der Name einer Station sein: nur Buchstaben, Ziffern, Leerzeichen und . _ @ + -, höchstens 40, mit einem Buchstaben oder einer Ziffer am Anfang</translation>
         </message>
         <message>
             <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
-            <translation type="unfinished" >{station!r} ist keine bekannte Station oder mehrere: Geben Sie Namen oder Kennung einer einzigen an; bekannt: {names}</translation>
+            <translation type="unfinished">{station!r} ist keine bekannte Station oder mehrere: Geben Sie Namen oder Kennung einer einzigen an; bekannt: {names}</translation>
         </message>
         <message>
             <source>Bring results of stations together…</source>
-            <translation type="unfinished" >Ergebnisse von Stationen zusammenführen…</translation>
+            <translation type="unfinished">Ergebnisse von Stationen zusammenführen…</translation>
         </message>
         <message>
             <source>Write this station's results…</source>
-            <translation type="unfinished" >Ergebnisse dieser Station schreiben…</translation>
+            <translation type="unfinished">Ergebnisse dieser Station schreiben…</translation>
         </message>
         <message>
             <source>Write the course for a station…</source>
-            <translation type="unfinished" >Kurs für eine Station schreiben…</translation>
+            <translation type="unfinished">Kurs für eine Station schreiben…</translation>
         </message>
         <message>
             <source>Results of stations</source>
-            <translation type="unfinished" >Ergebnisse von Stationen</translation>
+            <translation type="unfinished">Ergebnisse von Stationen</translation>
         </message>
         <message>
             <source>Bringing stations together</source>
-            <translation type="unfinished" >Stationen werden zusammengeführt</translation>
+            <translation type="unfinished">Stationen werden zusammengeführt</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
-            <translation type="unfinished" >Diese Stationen zulassen?</translation>
+            <translation type="unfinished">Diese Stationen zulassen?</translation>
         </message>
         <message>
             <source>Let them in</source>
-            <translation type="unfinished" >Zulassen</translation>
+            <translation type="unfinished">Zulassen</translation>
         </message>
         <message>
             <source>Write this station's results</source>
-            <translation type="unfinished" >Ergebnisse dieser Station schreiben</translation>
+            <translation type="unfinished">Ergebnisse dieser Station schreiben</translation>
         </message>
         <message>
             <source>left out, altered: {names}</source>
-            <translation type="unfinished" >ausgelassen, weil verändert: {names}</translation>
+            <translation type="unfinished">ausgelassen, weil verändert: {names}</translation>
         </message>
         <message>
             <source>Write the course for a station</source>
-            <translation type="unfinished" >Kurs für eine Station schreiben</translation>
+            <translation type="unfinished">Kurs für eine Station schreiben</translation>
         </message>
         <message>
             <source>Writing the course for a station</source>
-            <translation type="unfinished" >Kurs für eine Station wird geschrieben</translation>
+            <translation type="unfinished">Kurs für eine Station wird geschrieben</translation>
         </message>
         <message>
             <source>remarks: {n}</source>
-            <translation type="unfinished" >Bemerkungen: {n}</translation>
+            <translation type="unfinished">Bemerkungen: {n}</translation>
         </message>
         <message>
             <source>new students: {n}</source>
-            <translation type="unfinished" >neue Teilnehmer: {n}</translation>
+            <translation type="unfinished">neue Teilnehmer: {n}</translation>
         </message>
         <message>
             <source>new courses: {n}</source>
-            <translation type="unfinished" >neue Kurse: {n}</translation>
+            <translation type="unfinished">neue Kurse: {n}</translation>
         </message>
         <message>
             <source>persons erased: {n}</source>
-            <translation type="unfinished" >gelöschte Personen: {n}</translation>
+            <translation type="unfinished">gelöschte Personen: {n}</translation>
         </message>
         <message>
             <source>left out as erased: {n}</source>
-            <translation type="unfinished" >als gelöscht ausgelassen: {n}</translation>
+            <translation type="unfinished">als gelöscht ausgelassen: {n}</translation>
         </message>
         <message>
             <source>Files of stations (*.acus)</source>
-            <translation type="unfinished" >Dateien von Stationen (*.acus)</translation>
+            <translation type="unfinished">Dateien von Stationen (*.acus)</translation>
+        </message>
+        <message>
+            <source>failure rates {acceptable:g} (acceptable) and {unacceptable:g} (unacceptable): the first must be less than the second, both between 0 and 1</source>
+            <translation type="unfinished">Fehlerquoten {acceptable:g} (annehmbar) und {unacceptable:g} (nicht annehmbar): Die erste muss kleiner sein als die zweite, beide zwischen 0 und 1</translation>
+        </message>
+        <message>
+            <source>failure rates of {acceptable:g} and {unacceptable:g} are too near to be told apart in {most} attempts with errors of {false_alarm:g} and {missed:g}: take rates further apart, or larger errors</source>
+            <translation type="unfinished">Fehlerquoten von {acceptable:g} und {unacceptable:g} liegen zu nahe beieinander, um sie in {most} Versuchen mit Irrtümern von {false_alarm:g} und {missed:g} zu unterscheiden: Nehmen Sie Quoten, die weiter auseinander liegen, oder größere Irrtümer</translation>
+        </message>
+        <message>
+            <source>{times} times for {attempts} attempts: give one for each, or none</source>
+            <translation type="unfinished">{times} Zeiten für {attempts} Versuche: Geben Sie für jeden eine an, oder keine</translation>
+        </message>
+        <message>
+            <source>the unacceptable failure rate is {unacceptable:g}, the acceptable one {acceptable:g}: it must be more</source>
+            <translation type="unfinished">die nicht annehmbare Fehlerquote ist {unacceptable:g}, die annehmbare {acceptable:g}: Sie muss größer sein</translation>
+        </message>
+        <message>
+            <source>limit {limit:g}, start {start:g} and {attempts} attempts: the start is at least 0 and below the limit, attempts are 0 to {most}</source>
+            <translation type="unfinished">Grenze {limit:g}, Beginn {start:g} und {attempts} Versuche: Der Beginn ist mindestens 0 und kleiner als die Grenze, Versuche sind 0 bis {most}</translation>
+        </message>
+        <message>
+            <source>competent after {attempts} (false alarm ≤ {percent} %)</source>
+            <translation type="unfinished">kompetent nach {attempts} (Fehlalarm ≤ {percent} %)</translation>
+        </message>
+        <message>
+            <source>relapse after attempt {attempt}: {more}</source>
+            <translation type="unfinished">Rückfall nach Versuch {attempt}: {more}</translation>
+        </message>
+        <message>
+            <source>not yet: {more}</source>
+            <translation type="unfinished">noch nicht: {more}</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more</source>
+            <translation type="unfinished">mindestens noch {fewest}</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more (hardly, as the last ones went)</source>
+            <translation type="unfinished">mindestens noch {fewest} (kaum, so wie die letzten gingen)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} or more)</source>
+            <translation type="unfinished">mindestens noch {fewest} ({low} oder mehr)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} to {high})</source>
+            <translation type="unfinished">mindestens noch {fewest} ({low} bis {high})</translation>
+        </message>
+        <message>
+            <source>competent</source>
+            <translation type="unfinished">kompetent</translation>
+        </message>
+        <message>
+            <source>relapse</source>
+            <translation type="unfinished">Rückfall</translation>
+        </message>
+        <message>
+            <source>Competent: fails {acceptable} % of the time or less, not {unacceptable} % or more (LC-CUSUM). Of those who are not, at most {false_alarm} % are called competent within {attempts} attempts; of those who are, at most {missed} % are not. Attempts more: 80 % interval, if the last attempts go on as they went.</source>
+            <translation type="unfinished">Kompetent: scheitert in höchstens {acceptable} % der Versuche, nicht in {unacceptable} % oder mehr (LC-CUSUM). Von denen, die es nicht sind, heißen höchstens {false_alarm} % innerhalb von {attempts} Versuchen kompetent; von denen, die es sind, höchstens {missed} % nicht. Weitere Versuche: 80-%-Intervall, wenn es so weitergeht wie in den letzten Versuchen.</translation>
+        </message>
+        <message>
+            <source>Acceptable failures</source>
+            <translation type="unfinished">Annehmbare Fehler</translation>
+        </message>
+        <message>
+            <source>Unacceptable failures</source>
+            <translation type="unfinished">Nicht annehmbare Fehler</translation>
+        </message>
+        <message>
+            <source>no number of attempts tells these apart</source>
+            <translation type="unfinished">keine Zahl von Versuchen unterscheidet diese</translation>
+        </message>
+        <message>
+            <source>told apart in {n} attempts</source>
+            <translation type="unfinished">in {n} Versuchen zu unterscheiden</translation>
         </message>
     </context>
 </TS>

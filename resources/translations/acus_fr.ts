@@ -5581,7 +5581,7 @@
         </message>
         <message>
             <source>beyond the attempts that the course allows</source>
-            <translation type="unfinished" >au-delà des essais que le cours autorise</translation>
+            <translation type="unfinished">au-delà des essais que le cours autorise</translation>
         </message>
         <message>
             <source>not sealed by this station</source>
@@ -6145,7 +6145,7 @@
         </message>
         <message>
             <source>beyond the {attempts} attempts that the course {course} allows at all stations together</source>
-            <translation type="unfinished" >au-delà des {attempts} essais que le cours {course} autorise sur tous les postes réunis</translation>
+            <translation type="unfinished">au-delà des {attempts} essais que le cours {course} autorise sur tous les postes réunis</translation>
         </message>
         <message>
             <source>{path} is damaged: bring it back from a backup, or move it away to go on without names</source>
@@ -12011,11 +12011,11 @@ Lettres : directions du patient
         </message>
         <message>
             <source>revoked</source>
-            <translation type="unfinished" >révoqué</translation>
+            <translation type="unfinished">révoqué</translation>
         </message>
         <message>
             <source> (station {name})</source>
-            <translation type="unfinished" > (poste {name})</translation>
+            <translation type="unfinished"> (poste {name})</translation>
         </message>
         <message>
             <source>Drill: {title}</source>
@@ -15038,11 +15038,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Stations</source>
-            <translation type="unfinished" >Postes</translation>
+            <translation type="unfinished">Postes</translation>
         </message>
         <message>
             <source>Bring the results of several stations together</source>
-            <translation type="unfinished" >Réunir les résultats de plusieurs postes</translation>
+            <translation type="unfinished">Réunir les résultats de plusieurs postes</translation>
         </message>
         <message>
             <source>All exercises</source>
@@ -15238,6 +15238,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>File name</source>
             <translation type="unfinished">Nom du fichier</translation>
+        </message>
+        <message>
+            <source>Competence</source>
+            <translation type="unfinished">Compétence</translation>
         </message>
         <message>
             <source>any</source>
@@ -18154,6 +18158,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Compensation de la gravité et du frottement articulaire</translation>
         </message>
         <message>
+            <source>Competence: LC-CUSUM, then CUSUM</source>
+            <translation type="unfinished">Compétence : LC-CUSUM, puis CUSUM</translation>
+        </message>
+        <message>
             <source>Contact of the tip with bone</source>
             <translation type="unfinished">Contact de la pointe avec l’os</translation>
         </message>
@@ -19308,11 +19316,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>its signature is not that of the station {name}</source>
-            <translation type="unfinished" >la signature n’est pas celle du poste {name}</translation>
+            <translation type="unfinished">la signature n’est pas celle du poste {name}</translation>
         </message>
         <message>
             <source>the instructor has revoked the station that signed it</source>
-            <translation type="unfinished" >le formateur a révoqué le poste qui l’a signé</translation>
+            <translation type="unfinished">le formateur a révoqué le poste qui l’a signé</translation>
         </message>
         <message>
             <source>the signature beside it is that of another attempt</source>
@@ -19648,183 +19656,259 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{name:20} {fingerprint} {revoked:?revoked|}</source>
-            <translation type="unfinished" >{name:20} {fingerprint} {revoked:?révoqué|}</translation>
+            <translation type="unfinished">{name:20} {fingerprint} {revoked:?révoqué|}</translation>
         </message>
         <message>
             <source>no other station is known here</source>
-            <translation type="unfinished" >aucun autre poste n’est connu ici</translation>
+            <translation type="unfinished">aucun autre poste n’est connu ici</translation>
         </message>
         <message>
             <source>this station is {name}: {fingerprint}</source>
-            <translation type="unfinished" >ce poste est {name} : {fingerprint}</translation>
+            <translation type="unfinished">ce poste est {name} : {fingerprint}</translation>
         </message>
         <message>
             <source>{name} is revoked: what it signed counts here only once admitted</source>
-            <translation type="unfinished" >{name} est révoqué : ce qu’il a signé ne compte ici qu’une fois admis</translation>
+            <translation type="unfinished">{name} est révoqué : ce qu’il a signé ne compte ici qu’une fois admis</translation>
         </message>
         <message>
             <source>Print it and lock it away: it opens the station's key in a backup.</source>
-            <translation type="unfinished" >Imprimez-la et mettez-la sous clé : elle ouvre la clé du poste dans une sauvegarde.</translation>
+            <translation type="unfinished">Imprimez-la et mettez-la sous clé : elle ouvre la clé du poste dans une sauvegarde.</translation>
         </message>
         <message>
             <source>this station has a new key: {fingerprint}</source>
-            <translation type="unfinished" >ce poste a une nouvelle clé : {fingerprint}</translation>
+            <translation type="unfinished">ce poste a une nouvelle clé : {fingerprint}</translation>
         </message>
         <message>
             <source>{attempts:#1 attempt|# attempts} and {remarks:#1 remark|# remarks} written to {files}</source>
-            <translation type="unfinished" >{attempts:#1 essai|# essais|0 essai} et {remarks:#1 remarque|# remarques|0 remarque} dans {files}</translation>
+            <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} et {remarks:#1 remarque|# remarques|0 remarque} dans {files}</translation>
         </message>
         <message>
             <source>✖ {} is left out: it was altered after it was signed</source>
-            <translation type="unfinished" >✖ {} est omis : altéré après la signature</translation>
+            <translation type="unfinished">✖ {} est omis : altéré après la signature</translation>
         </message>
         <message>
             <source>{people:#1 student|# students} and {courses:#1 course|# courses} written to {files}</source>
-            <translation type="unfinished" >{people:#1 étudiant|# étudiants|0 étudiant} et {courses:#1 cours|# cours|0 cours} dans {files}</translation>
+            <translation type="unfinished">{people:#1 étudiant|# étudiants|0 étudiant} et {courses:#1 cours|# cours|0 cours} dans {files}</translation>
         </message>
         <message>
             <source>{station}: {attempts:#1 attempt|# attempts} added, {present} here already, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses}, {erased} erased, {left_out} left out as erased</source>
-            <translation type="unfinished" >{station} : {attempts:#1 essai ajouté|# essais ajoutés|0 essai ajouté}, {present} déjà ici, {remarks:#1 remarque|# remarques|0 remarque}, {people:#1 étudiant|# étudiants|0 étudiant}, {courses:#1 cours|# cours|0 cours}, {erased} effacés, {left_out} omis car effacés</translation>
+            <translation type="unfinished">{station} : {attempts:#1 essai ajouté|# essais ajoutés|0 essai ajouté}, {present} déjà ici, {remarks:#1 remarque|# remarques|0 remarque}, {people:#1 étudiant|# étudiants|0 étudiant}, {courses:#1 cours|# cours|0 cours}, {erased} effacés, {left_out} omis car effacés</translation>
         </message>
         <message>
             <source>left out: {line}</source>
-            <translation type="unfinished" >omis : {line}</translation>
+            <translation type="unfinished">omis : {line}</translation>
         </message>
         <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
+            <translation type="unfinished">{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
         </message>
         <message>
             <source>cannot take in {source}: {reason} ({place})</source>
-            <translation type="unfinished" >impossible de prendre {source} : {reason} ({place})</translation>
+            <translation type="unfinished">impossible de prendre {source} : {reason} ({place})</translation>
         </message>
         <message>
             <source>the attempt {name} is another record here</source>
-            <translation type="unfinished" >l’essai {name} est ici un autre enregistrement</translation>
+            <translation type="unfinished">l’essai {name} est ici un autre enregistrement</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
+            <translation type="unfinished">{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
         </message>
         <message>
             <source>{name} is another file here</source>
-            <translation type="unfinished" >{name} est ici un autre fichier</translation>
+            <translation type="unfinished">{name} est ici un autre fichier</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
-            <translation type="unfinished" >{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
+            <translation type="unfinished">{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
         </message>
         <message>
             <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished" >{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
+            <translation type="unfinished">{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
-            <translation type="unfinished" >{source} est endommagé à {name} : reprenez-le sur son poste</translation>
+            <translation type="unfinished">{source} est endommagé à {name} : reprenez-le sur son poste</translation>
         </message>
         <message>
             <source>{source} holds no results and no course of a station: write it again there with `acus store results` or `acus store station`</source>
-            <translation type="unfinished" >{source} ne contient ni résultats ni cours d’un poste : écrivez-le de nouveau là-bas avec `acus store results` ou `acus store station`</translation>
+            <translation type="unfinished">{source} ne contient ni résultats ni cours d’un poste : écrivez-le de nouveau là-bas avec `acus store results` ou `acus store station`</translation>
         </message>
         <message>
             <source>{source} is another file of Acus ({kind!r:.40}): give one that `acus store results` or `acus store station` wrote</source>
-            <translation type="unfinished" >{source} est un autre fichier d’Acus ({kind!r:.40}) : donnez-en un écrit par `acus store results` ou `acus store station`</translation>
+            <translation type="unfinished">{source} est un autre fichier d’Acus ({kind!r:.40}) : donnez-en un écrit par `acus store results` ou `acus store station`</translation>
         </message>
         <message>
             <source>{source} was written by a newer version of Acus: use that version here too</source>
-            <translation type="unfinished" >{source} a été écrit par une version plus récente d’Acus : utilisez-la ici aussi</translation>
+            <translation type="unfinished">{source} a été écrit par une version plus récente d’Acus : utilisez-la ici aussi</translation>
         </message>
         <message>
             <source>{source} was altered after its station signed it: fetch it anew from the station</source>
-            <translation type="unfinished" >{source} a été altéré après la signature du poste : reprenez-le sur le poste</translation>
+            <translation type="unfinished">{source} a été altéré après la signature du poste : reprenez-le sur le poste</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which the instructor has revoked: nothing of it is taken</source>
-            <translation type="unfinished" >{source} vient du poste {name}, que le formateur a révoqué : rien n’en est pris</translation>
+            <translation type="unfinished">{source} vient du poste {name}, que le formateur a révoqué : rien n’en est pris</translation>
         </message>
         <message>
             <source>{source} comes from the station {name}, which is not known here by this key: compare {fingerprint} with `acus store stations` there, then gather it with --trust</source>
-            <translation type="unfinished" >{source} vient du poste {name}, qui n’est pas connu ici par cette clé : comparez {fingerprint} avec `acus store stations` là-bas, puis prenez-le avec --trust</translation>
+            <translation type="unfinished">{source} vient du poste {name}, qui n’est pas connu ici par cette clé : comparez {fingerprint} avec `acus store stations` là-bas, puis prenez-le avec --trust</translation>
         </message>
         <message>
             <source>no station and public key</source>
-            <translation type="unfinished" >ni poste ni clé publique</translation>
+            <translation type="unfinished">ni poste ni clé publique</translation>
         </message>
         <message>
             <source>{name!r} cannot be the name of a station: letters, digits, blanks and . _ @ + - only, at most 40, beginning with a letter or digit</source>
-            <translation type="unfinished" >{name!r} ne peut pas être le nom d’un poste : lettres, chiffres, espaces et . _ @ + - seulement, 40 au plus, en commençant par une lettre ou un chiffre</translation>
+            <translation type="unfinished">{name!r} ne peut pas être le nom d’un poste : lettres, chiffres, espaces et . _ @ + - seulement, 40 au plus, en commençant par une lettre ou un chiffre</translation>
         </message>
         <message>
             <source>{station!r} is no known station, or several: give name or id of one; known: {names}</source>
-            <translation type="unfinished" >{station!r} n’est pas un poste connu, ou en désigne plusieurs : donnez le nom ou l’identifiant d’un seul ; connus : {names}</translation>
+            <translation type="unfinished">{station!r} n’est pas un poste connu, ou en désigne plusieurs : donnez le nom ou l’identifiant d’un seul ; connus : {names}</translation>
         </message>
         <message>
             <source>Bring results of stations together…</source>
-            <translation type="unfinished" >Réunir les résultats de plusieurs postes…</translation>
+            <translation type="unfinished">Réunir les résultats de plusieurs postes…</translation>
         </message>
         <message>
             <source>Write this station's results…</source>
-            <translation type="unfinished" >Écrire les résultats de ce poste…</translation>
+            <translation type="unfinished">Écrire les résultats de ce poste…</translation>
         </message>
         <message>
             <source>Write the course for a station…</source>
-            <translation type="unfinished" >Écrire le cours pour un poste…</translation>
+            <translation type="unfinished">Écrire le cours pour un poste…</translation>
         </message>
         <message>
             <source>Results of stations</source>
-            <translation type="unfinished" >Résultats de postes</translation>
+            <translation type="unfinished">Résultats de postes</translation>
         </message>
         <message>
             <source>Bringing stations together</source>
-            <translation type="unfinished" >Réunion des postes</translation>
+            <translation type="unfinished">Réunion des postes</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
-            <translation type="unfinished" >Admettre ces postes ?</translation>
+            <translation type="unfinished">Admettre ces postes ?</translation>
         </message>
         <message>
             <source>Let them in</source>
-            <translation type="unfinished" >Admettre</translation>
+            <translation type="unfinished">Admettre</translation>
         </message>
         <message>
             <source>Write this station's results</source>
-            <translation type="unfinished" >Écrire les résultats de ce poste</translation>
+            <translation type="unfinished">Écrire les résultats de ce poste</translation>
         </message>
         <message>
             <source>left out, altered: {names}</source>
-            <translation type="unfinished" >omis, car altérés : {names}</translation>
+            <translation type="unfinished">omis, car altérés : {names}</translation>
         </message>
         <message>
             <source>Write the course for a station</source>
-            <translation type="unfinished" >Écrire le cours pour un poste</translation>
+            <translation type="unfinished">Écrire le cours pour un poste</translation>
         </message>
         <message>
             <source>Writing the course for a station</source>
-            <translation type="unfinished" >Écriture du cours pour un poste</translation>
+            <translation type="unfinished">Écriture du cours pour un poste</translation>
         </message>
         <message>
             <source>remarks: {n}</source>
-            <translation type="unfinished" >remarques : {n}</translation>
+            <translation type="unfinished">remarques : {n}</translation>
         </message>
         <message>
             <source>new students: {n}</source>
-            <translation type="unfinished" >nouveaux étudiants : {n}</translation>
+            <translation type="unfinished">nouveaux étudiants : {n}</translation>
         </message>
         <message>
             <source>new courses: {n}</source>
-            <translation type="unfinished" >nouveaux cours : {n}</translation>
+            <translation type="unfinished">nouveaux cours : {n}</translation>
         </message>
         <message>
             <source>persons erased: {n}</source>
-            <translation type="unfinished" >personnes effacées : {n}</translation>
+            <translation type="unfinished">personnes effacées : {n}</translation>
         </message>
         <message>
             <source>left out as erased: {n}</source>
-            <translation type="unfinished" >omis car effacés : {n}</translation>
+            <translation type="unfinished">omis car effacés : {n}</translation>
         </message>
         <message>
             <source>Files of stations (*.acus)</source>
-            <translation type="unfinished" >Fichiers de postes (*.acus)</translation>
+            <translation type="unfinished">Fichiers de postes (*.acus)</translation>
+        </message>
+        <message>
+            <source>failure rates {acceptable:g} (acceptable) and {unacceptable:g} (unacceptable): the first must be less than the second, both between 0 and 1</source>
+            <translation type="unfinished">taux d'échec {acceptable:g} (acceptable) et {unacceptable:g} (inacceptable) : le premier doit être inférieur au second, tous deux entre 0 et 1</translation>
+        </message>
+        <message>
+            <source>failure rates of {acceptable:g} and {unacceptable:g} are too near to be told apart in {most} attempts with errors of {false_alarm:g} and {missed:g}: take rates further apart, or larger errors</source>
+            <translation type="unfinished">des taux d'échec de {acceptable:g} et {unacceptable:g} sont trop proches pour être distingués en {most} essais avec des erreurs de {false_alarm:g} et {missed:g} : prenez des taux plus éloignés, ou des erreurs plus grandes</translation>
+        </message>
+        <message>
+            <source>{times} times for {attempts} attempts: give one for each, or none</source>
+            <translation type="unfinished">{times} heures pour {attempts} essais : donnez-en une pour chacun, ou aucune</translation>
+        </message>
+        <message>
+            <source>the unacceptable failure rate is {unacceptable:g}, the acceptable one {acceptable:g}: it must be more</source>
+            <translation type="unfinished">le taux d'échec inacceptable est {unacceptable:g}, l'acceptable {acceptable:g} : il doit être supérieur</translation>
+        </message>
+        <message>
+            <source>limit {limit:g}, start {start:g} and {attempts} attempts: the start is at least 0 and below the limit, attempts are 0 to {most}</source>
+            <translation type="unfinished">limite {limit:g}, départ {start:g} et {attempts} essais : le départ est d'au moins 0 et sous la limite, les essais vont de 0 à {most}</translation>
+        </message>
+        <message>
+            <source>competent after {attempts} (false alarm ≤ {percent} %)</source>
+            <translation type="unfinished">compétent après {attempts} (fausse alerte ≤ {percent} %)</translation>
+        </message>
+        <message>
+            <source>relapse after attempt {attempt}: {more}</source>
+            <translation type="unfinished">rechute après l'essai {attempt} : {more}</translation>
+        </message>
+        <message>
+            <source>not yet: {more}</source>
+            <translation type="unfinished">pas encore : {more}</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more</source>
+            <translation type="unfinished">encore {fewest} au moins</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more (hardly, as the last ones went)</source>
+            <translation type="unfinished">encore {fewest} au moins (peu probable, vu les derniers)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} or more)</source>
+            <translation type="unfinished">encore {fewest} au moins ({low} ou plus)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} to {high})</source>
+            <translation type="unfinished">encore {fewest} au moins ({low} à {high})</translation>
+        </message>
+        <message>
+            <source>competent</source>
+            <translation type="unfinished">compétent</translation>
+        </message>
+        <message>
+            <source>relapse</source>
+            <translation type="unfinished">rechute</translation>
+        </message>
+        <message>
+            <source>Competent: fails {acceptable} % of the time or less, not {unacceptable} % or more (LC-CUSUM). Of those who are not, at most {false_alarm} % are called competent within {attempts} attempts; of those who are, at most {missed} % are not. Attempts more: 80 % interval, if the last attempts go on as they went.</source>
+            <translation type="unfinished">Compétent : échoue dans {acceptable} % des cas au plus, et non dans {unacceptable} % ou plus (LC-CUSUM). De ceux qui ne le sont pas, {false_alarm} % au plus sont dits compétents en {attempts} essais ; de ceux qui le sont, {missed} % au plus ne le sont pas. Essais encore nécessaires : intervalle à 80 %, si les derniers essais continuent de même.</translation>
+        </message>
+        <message>
+            <source>Acceptable failures</source>
+            <translation type="unfinished">Échecs acceptables</translation>
+        </message>
+        <message>
+            <source>Unacceptable failures</source>
+            <translation type="unfinished">Échecs inacceptables</translation>
+        </message>
+        <message>
+            <source>no number of attempts tells these apart</source>
+            <translation type="unfinished">aucun nombre d'essais ne les distingue</translation>
+        </message>
+        <message>
+            <source>told apart in {n} attempts</source>
+            <translation type="unfinished">distingués en {n} essais</translation>
         </message>
     </context>
 </TS>

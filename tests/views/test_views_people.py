@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
 from app.exercises.library import load_exercise
 from app.scoring.competence import CompetenceRule
 from app.scoring.conditions import Conditions
-from app.session.course import Course, courses
+from app.session.course import Course, CourseError, courses
 from app.session.header import SessionHeader
 from app.session.people import People
 from app.session.recorder import Recorder
@@ -297,8 +297,24 @@ def test_the_board_and_the_curve_say_who_is_competent(window, feature, settle):
 def test_a_course_that_is_edited_keeps_the_rates_of_its_file(feature):
     rule = CompetenceRule(acceptable=0.05, unacceptable=0.5)
     feature.edit_course(Course(id="c", title="C", competence=rule))
-    assert feature.dialog.course().competence == rule
-    feature.dialog.close()
+    dialog = feature.dialog
+    assert dialog.course().competence == rule
+    dialog.rates.unacceptable.setValue(30.0)
+    dialog.rates.unacceptable.editingFinished.emit()
+    assert dialog.course().competence == CompetenceRule(acceptable=0.05, unacceptable=0.3)
+    assert dialog.rates.told.text().startswith("told apart in ")
+    dialog.close()
+
+
+def test_a_course_whose_rates_make_no_test_is_refused_in_the_form(feature):
+    feature.edit_course(Course(id="c", title="C"))
+    dialog = feature.dialog
+    dialog.rates.unacceptable.setValue(5.0)
+    dialog.rates.unacceptable.editingFinished.emit()
+    assert dialog.rates.told.text() == "no number of attempts tells these apart"
+    with pytest.raises(CourseError, match=r"Competence: .*it must be more"):
+        dialog.course()
+    dialog.close()
 
 
 def test_who_was_erased_is_shown_as_erased(window, feature, settle):

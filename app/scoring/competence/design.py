@@ -127,21 +127,21 @@ def _planned(weights: Weights, rule: CompetenceRule) -> tuple[float, int, float,
     if _fewest(rule) > MOST_ATTEMPTS:
         raise _too_near(rule)
     low, high = 0, 1
-    while not _kept(weights, rule, high):  # doubled until it can be kept, then halved
+    while not _plans(weights, rule, high):  # doubled until it can be kept, then halved
         low, high = high, 2 * high
         if high * STEP > 40.0:
             raise _too_near(rule)
     while high - low > 1:
         middle = (low + high) // 2
-        if _kept(weights, rule, middle):
+        if _plans(weights, rule, middle):
             high = middle
         else:
             low = middle
     least: tuple[float, int, float, float] | None = None
     for step in range(max(1, int(_BELOW * high)), high + _FURTHER):
-        kept = _kept(weights, rule, step)
-        least = least or (kept[0] if kept else None)
-        for limit, attempts, false_alarm, missed in kept:
+        plans = _plans(weights, rule, step)
+        least = least or (plans[0] if plans else None)
+        for limit, attempts, false_alarm, missed in plans:
             if rule.false_alarm - false_alarm <= NEAR and rule.missed - missed <= NEAR:
                 return limit, attempts, false_alarm, missed
     if least is None:
@@ -166,7 +166,7 @@ def _fewest(rule: CompetenceRule) -> float:
     return float((apart / (rule.unacceptable - rule.acceptable)) ** 2)
 
 
-def _kept(
+def _plans(
     weights: Weights, rule: CompetenceRule, step: int
 ) -> list[tuple[float, int, float, float]]:
     """Return limit, attempts and errors for each number of attempts with which both are kept."""
@@ -180,8 +180,8 @@ def _kept(
         if missed[-1] <= 0.5 * rule.missed:
             break  # more attempts would only lower what is missed
         horizon = min(2 * horizon, MOST_ATTEMPTS)
-    kept = np.flatnonzero((false_alarm <= rule.false_alarm) & (missed <= rule.missed))
-    return [(limit, int(n), float(false_alarm[n]), float(missed[n])) for n in kept]
+    right = np.flatnonzero((false_alarm <= rule.false_alarm) & (missed <= rule.missed))
+    return [(limit, int(n), float(false_alarm[n]), float(missed[n])) for n in right]
 
 
 def _limit_within(weights: Weights, failure_rate: float, attempts: int, error: float) -> float:

@@ -42,7 +42,7 @@ from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
 from app.exercises.guidance import Purpose
 from app.exercises.schema import Exercise
-from app.scoring.competence import RULE, Competence, CompetenceRule
+from app.scoring.competence import Competence, CompetenceState
 from app.session.board import BoardCell, CurvePoint, ProgressBoard
 from app.session.course import Course, CourseError, CourseStanding, next_of_course
 from app.session.people import Person
@@ -55,11 +55,13 @@ from app.views.kit.text import date_text, declared, listing, literal, tr, tr_n, 
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 from app.views.people.competence_marks import (
+    MARKS,
     competence_line,
     draw_changes,
     mark_words,
     rule_words,
 )
+from app.views.people.competence_rates import CompetenceRates
 
 _DAY: Final = 86400.0
 _LEVEL: Final = 0.5
@@ -227,12 +229,15 @@ class BoardTab(QWidget):
             for place, item in enumerate(board.items, 1):
                 cell = board.cells[person.key, item.exercise]
                 place_of = (person.key, item.exercise)
-                texts = (cell_words(cell), mark_words(board, *place_of))
-                shown = QTableWidgetItem("  ".join(filter(None, texts)))
+                mark = mark_words(board, *place_of)
+                texts = (cell_words(cell).rstrip(), mark)
+                shown = QTableWidgetItem(" · ".join(filter(None, texts)) + "   ")
                 details = (competence_line(board, *place_of), cell_details(cell))
                 shown.setToolTip(literal("\n".join(filter(None, details))))
                 if cell.passed:
-                    shown.setForeground(QColor(theme.now(theme.GOOD)))
+                    relapsed = mark.startswith(MARKS[CompetenceState.RELAPSE])
+                    colour = theme.WARNING if relapsed else theme.GOOD
+                    shown.setForeground(QColor(theme.now(colour)))
                 self.table.setItem(row, place, shown)
         self.hint.setToolTip(literal(rule_words(board)) if board.items else "")
         self.hint.setText(
@@ -650,9 +655,9 @@ class CourseDialog(SettingsDialog):
     ) -> None:
         super().__init__(tr("Course"), (860, 520), QDialogButtonBox.StandardButton.Save, parent)
         self._take, self._exercises, self._known = take, exercises, tuple(groups)
-        self._rule: CompetenceRule = RULE
         self.id, self.title, self.groups = (QLineEdit(self) for _ in range(3))
         self.ordered = QCheckBox(tr("In order: the next opens when the one before was passed"))
+        self.rates = CompetenceRates(self)
         self.offered = QComboBox(self)
         self.offered.setAccessibleName(tr("Exercise to add"))
         for identifier, exercise in exercises.items():
@@ -675,6 +680,7 @@ class CourseDialog(SettingsDialog):
             (tr("Groups"), self.groups),
         ):
             add_row(form, name, field)
+        add_row(form, tr("Competence"), self.rates)
         row = QHBoxLayout()
         row.addWidget(self.offered, 1)
         row.addWidget(self.add)
@@ -748,7 +754,7 @@ class CourseDialog(SettingsDialog):
             "groups": groups,
             "ordered": self.ordered.isChecked(),
             "items": [self._item(row) for row in range(self.items.rowCount())],
-            "competence": self._rule.model_dump(),
+            "competence": self.rates.document(),
         }
         course, problems = checked(document, Course)
         if course is None:
@@ -761,6 +767,7 @@ class CourseDialog(SettingsDialog):
         first = str(place[0]) if place else ""
         lines = {"id": self.id, "title": self.title, "groups": self.groups}
         names = {"id": tr("File name"), "title": tr("Title"), "groups": tr("Groups")}
+        names["competence"] = tr("Competence")
         name, field = names.get(first, tr("Course")), lines.get(first)
         if first == "items" and len(place) > 1:
             row, key = int(place[1]), str(place[2]) if len(place) > 2 else ""
@@ -823,7 +830,7 @@ class CourseDialog(SettingsDialog):
         return found
 
     def _show(self, course: Course) -> None:
-        self._rule = course.competence
+        self.rates.show_rule(course.competence)
         self.id.setText(course.id)
         self.id.setReadOnly(True)
         self.title.setText(course.title)
