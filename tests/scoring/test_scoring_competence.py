@@ -24,7 +24,7 @@ from app.scoring.competence import (
     competence_words,
     design,
 )
-from app.scoring.competence.cusum import Weights, learning_weights, watching_weights
+from app.scoring.competence.cusum import CusumWeights, learning_weights, watching_weights
 from app.scoring.competence.forecast import forecast, rates_of
 from app.scoring.competence.run_lengths import MOST_ATTEMPTS, mean_run_length, signalled_by
 
@@ -98,7 +98,7 @@ def test_the_lowest_limits_that_keep_an_error_are_those_of_r(row):
 @pytest.mark.parametrize("row", R["surveillance_arl"], ids=lambda row: f"{row['rate']}")
 def test_average_run_lengths_are_those_of_the_r_package_surveillance(row):
     """Its scores are whole tenths: a limit half a tenth below has no rounding to fear."""
-    weights = Weights(1.0 - row["k"], row["k"], failing_gains=True)
+    weights = CusumWeights(1.0 - row["k"], row["k"], failing_gains=True)
     assert mean_run_length(weights, row["h"] - 0.05, row["rate"]) == pytest.approx(
         row["arl"], rel=1e-7
     )

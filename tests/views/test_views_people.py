@@ -302,7 +302,7 @@ def test_a_course_that_is_edited_keeps_the_rates_of_its_file(feature):
     dialog.rates.unacceptable.setValue(30.0)
     dialog.rates.unacceptable.editingFinished.emit()
     assert dialog.course().competence == CompetenceRule(acceptable=0.05, unacceptable=0.3)
-    assert dialog.rates.told.text().startswith("told apart in ")
+    assert dialog.rates.note.text().startswith("told apart in ")
     dialog.close()
 
 
@@ -311,7 +311,7 @@ def test_a_course_whose_rates_make_no_test_is_refused_in_the_form(feature):
     dialog = feature.dialog
     dialog.rates.unacceptable.setValue(5.0)
     dialog.rates.unacceptable.editingFinished.emit()
-    assert dialog.rates.told.text() == "no number of attempts tells these apart"
+    assert dialog.rates.note.text() == "no number of attempts tells these apart"
     with pytest.raises(CourseError, match=r"Competence: .*it must be more"):
         dialog.course()
     dialog.close()

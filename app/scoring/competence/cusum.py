@@ -31,7 +31,7 @@ class CompetenceError(ScoringError, ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Weights:
+class CusumWeights:
     """What attempts do to a score.
 
     Attributes:
@@ -55,24 +55,24 @@ class Weights:
         return failure_rate if self.failing_gains else 1.0 - failure_rate
 
 
-def learning_weights(acceptable: float, unacceptable: float) -> Weights:
+def learning_weights(acceptable: float, unacceptable: float) -> CusumWeights:
     """Return the weights of the LC-CUSUM.
 
     Raises:
         CompetenceError: unless 0 < acceptable < unacceptable < 1.
     """
     passing, failing = _ratios(acceptable, unacceptable)
-    return Weights(passing, failing, failing_gains=False)
+    return CusumWeights(passing, failing, failing_gains=False)
 
 
-def watching_weights(acceptable: float, unacceptable: float) -> Weights:
+def watching_weights(acceptable: float, unacceptable: float) -> CusumWeights:
     """Return the weights of the CUSUM that watches for a relapse.
 
     Raises:
         CompetenceError: unless 0 < acceptable < unacceptable < 1.
     """
     passing, failing = _ratios(acceptable, unacceptable)
-    return Weights(failing, passing, failing_gains=True)
+    return CusumWeights(failing, passing, failing_gains=True)
 
 
 def _ratios(acceptable: float, unacceptable: float) -> tuple[float, float]:

@@ -13,7 +13,7 @@ import numpy as np
 from app.core.messages import sentence
 from app.scoring.competence.cusum import (
     CompetenceError,
-    Weights,
+    CusumWeights,
     learning_weights,
     watching_weights,
 )
@@ -53,8 +53,8 @@ class Design:
     """
 
     rule: CompetenceRule
-    learning: Weights
-    watching: Weights
+    learning: CusumWeights
+    watching: CusumWeights
     limit: float
     attempts: int
     false_alarm: float
@@ -122,7 +122,7 @@ def head_start(watch_limit: float) -> float:
     return 0.5 * watch_limit
 
 
-def _planned(weights: Weights, rule: CompetenceRule) -> tuple[float, int, float, float]:
+def _planned(weights: CusumWeights, rule: CompetenceRule) -> tuple[float, int, float, float]:
     """Return limit, attempts, and the two errors that are reached."""
     if _fewest(rule) > MOST_ATTEMPTS:
         raise _too_near(rule)
@@ -167,7 +167,7 @@ def _fewest(rule: CompetenceRule) -> float:
 
 
 def _plans(
-    weights: Weights, rule: CompetenceRule, step: int
+    weights: CusumWeights, rule: CompetenceRule, step: int
 ) -> list[tuple[float, int, float, float]]:
     """Return limit, attempts and errors for each number of attempts with which both are kept."""
     limit, horizon = round(STEP * step, 2), 64
@@ -184,7 +184,7 @@ def _plans(
     return [(limit, int(n), float(false_alarm[n]), float(missed[n])) for n in right]
 
 
-def _limit_within(weights: Weights, failure_rate: float, attempts: int, error: float) -> float:
+def _limit_within(weights: CusumWeights, failure_rate: float, attempts: int, error: float) -> float:
     """Return the lowest limit that so few signal within the attempts; two decimals."""
     low, high = 0, ceil(weights.gain * attempts / STEP) + 1  # nothing reaches that
     while high - low > 1:

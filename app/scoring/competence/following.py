@@ -37,7 +37,7 @@ class CompetenceState(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class CompetenceChange:
     """A signal: the attempt, counted from 1, with which somebody became competent or relapsed."""
 
     attempt: int
@@ -63,7 +63,7 @@ class Competence:
 
     state: CompetenceState
     attempts: int
-    changes: tuple[Change, ...]
+    changes: tuple[CompetenceChange, ...]
     scores: tuple[float, ...]
     false_alarm: float | None
     fewest: int
@@ -148,7 +148,7 @@ def competence(
         before = walk.state
         scores.append(walk.attempt(bool(one)))
         if walk.state is not before:
-            changes.append(Change(number, walk.state))
+            changes.append(CompetenceChange(number, walk.state))
     if times and now is not None and now - times[-1] >= gap:
         walk.rest()
     competent = walk.state is CompetenceState.COMPETENT

@@ -16,7 +16,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.messages import sentence
-from app.scoring.competence.cusum import CompetenceError, Weights
+from app.scoring.competence.cusum import CompetenceError, CusumWeights
 
 MOST_ATTEMPTS: Final = 300
 """No test is planned, and no run length told, over more attempts of one person at one skill."""
@@ -29,7 +29,7 @@ _SETTLED: Final = 1e-12
 
 
 def signalled_by(
-    weights: Weights,
+    weights: CusumWeights,
     limit: float,
     failure_rates: FloatArray | float,
     attempts: int,
@@ -83,7 +83,7 @@ def signalled_by(
     return read_only(signalled[0] if np.ndim(failure_rates) == 0 else signalled)
 
 
-def mean_run_length(weights: Weights, limit: float, failure_rate: float) -> float:
+def mean_run_length(weights: CusumWeights, limit: float, failure_rate: float) -> float:
     """Return how many attempts the test takes on average to signal; inf where it never does.
 
     Summed are the shares that go on after each attempt. These fall geometrically in the end, by
@@ -105,7 +105,7 @@ def mean_run_length(weights: Weights, limit: float, failure_rate: float) -> floa
 
 @lru_cache(maxsize=256)
 def _states(
-    weights: Weights, limit: float, attempts: int, start: float
+    weights: CusumWeights, limit: float, attempts: int, start: float
 ) -> tuple[np.ndarray[tuple[int], np.dtype[np.int64]], ...]:
     """Return where a gain and where a loss leads from each score; -1 is the signal.
 

@@ -16,14 +16,14 @@ class CompetenceRates(QWidget):
 
     Attributes:
         acceptable, unacceptable: fields.
-        told: says how many attempts it takes, or that it cannot be.
+        note: says how many attempts it takes, or that it cannot be.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._rule = RULE
         self.acceptable, self.unacceptable = QDoubleSpinBox(self), QDoubleSpinBox(self)
-        self.told = PlainLabel("", self)
+        self.note = PlainLabel("", self)
         names = (tr("Acceptable failures"), tr("Unacceptable failures"))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -36,7 +36,7 @@ class CompetenceRates(QWidget):
             row.addWidget(PlainLabel(name, self))
             row.addWidget(field)
             field.editingFinished.connect(self._tell)
-        row.addWidget(self.told, 1)
+        row.addWidget(self.note, 1)
         self.show_rule(RULE)
 
     def show_rule(self, rule: CompetenceRule) -> None:
@@ -58,6 +58,6 @@ class CompetenceRates(QWidget):
         try:
             plan = design(CompetenceRule(**self.document()))
         except (ValidationError, CompetenceError):
-            self.told.setText(tr("no number of attempts tells these apart"))
+            self.note.setText(tr("no number of attempts tells these apart"))
             return
-        self.told.setText(tr("told apart in {n} attempts", n=plan.attempts))
+        self.note.setText(tr("told apart in {n} attempts", n=plan.attempts))
