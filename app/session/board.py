@@ -132,6 +132,12 @@ class ProgressBoard:
             self._competences[place] = competence(passed, times, self.now, self.rule)
         return self._competences.get(place)
 
+    def tell_competence(self) -> None:
+        """Tell it of every cell now, so that nobody waits for it later."""
+        for person in self.students:
+            for item in self.items:
+                self.competence(person.key, item.exercise)
+
     @cached_property
     def _competences(self) -> dict[tuple[str, str], Competence]:
         return {}

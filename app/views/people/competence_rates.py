@@ -47,7 +47,7 @@ class CompetenceRates(QWidget):
         self._tell()
 
     def document(self) -> dict[str, float]:
-        """Return the rule as the fields say, to be checked; rates nobody changed are as they were."""
+        """Return the rule as the fields say, unchecked; rates nobody changed are as they were."""
         document: dict[str, float] = self._rule.model_dump()
         for name, field in (("acceptable", self.acceptable), ("unacceptable", self.unacceptable)):
             if field.value() != round(100.0 * document[name], field.decimals()):

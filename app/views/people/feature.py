@@ -253,6 +253,7 @@ class PeopleFeature(Feature):
                 board = replace(board, students=tuple(everybody))
                 known = [one for one in known if student and one.takes(student)]
                 broken, waiting = [], {}
+            board.tell_competence()  # here, where the window need not wait for it
             own = [one for one in attempts if student and one.student == student.key]
             own = not_void(own, remarks)
             standings = {
