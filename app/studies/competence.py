@@ -18,7 +18,7 @@ from app.scoring.competence.cusum import learning_weights, watching_weights
 from app.scoring.competence.design import NEAR, head_start
 from app.scoring.competence.forecast import INTERVAL, LAST, forecast
 from app.scoring.competence.rule import RULE, CompetenceRule
-from app.scoring.competence.run_lengths import signalled_by
+from app.scoring.competence.run_lengths import mean_run_length, signalled_by
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -237,8 +237,13 @@ def relapses(students: int, rng: np.random.Generator) -> Sheet:
         when = signals(low, high, limit, rates, students, rng, start)
         false = plan.false_relapse_after_gap if start else plan.false_relapse
         seen = np.quantile(when, (0.1, 0.5, 0.9), method="inverted_cdf")
-        rows.append((name, _figure(false), *(int(number) for number in seen)))
-    columns = ("student", f"false relapse in {plan.attempts}", "seen, 10 %", "median", "90 %")
+        mean = mean_run_length(plan.watching, plan.watch_limit, RULE.acceptable)
+        between: Cell = "-" if start else round(mean)
+        rows.append((name, _figure(false), between, *(int(number) for number in seen)))
+    columns = (
+        *("student", f"false relapse in {plan.attempts}", "mean attempts to a false one"),
+        *("seen, 10 %", "seen, median", "seen, 90 %"),
+    )
     return Sheet("relapses", "A relapse to p1: attempts until it is seen", columns, tuple(rows))
 
 

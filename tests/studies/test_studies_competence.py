@@ -81,8 +81,11 @@ def test_students_who_learn_are_called_after_they_are_better_than_unacceptable()
 
 def test_a_relapse_is_seen_sooner_after_a_gap_at_the_price_of_more_false_ones():
     practising, rested = relapses(4000, np.random.default_rng(4)).rows
-    assert rested[3] < practising[3]
+    assert rested[4] < practising[4]
     assert practising[1] <= 0.05 < rested[1] < 0.15
+    when = signals(0.1, 0.4, 3.76, np.full(6000, 0.1), 2000, np.random.default_rng(6))
+    assert np.isfinite(when).all()
+    assert practising[2] == pytest.approx(when.mean(), rel=4.0 / np.sqrt(2000))
 
 
 def test_forecasts_hold_at_least_as_often_as_they_state():

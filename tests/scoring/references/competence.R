@@ -1,8 +1,8 @@
 # Competence by LC-CUSUM and CUSUM, computed by R alone: the references of tests/scoring.
 #
-# Written from the papers, without looking at the program: weights from the ratio of the binomial
-# likelihoods (dbinom), scores by Reduce, probabilities twice - by running through all 2^n series of
-# passes and failures, and by carrying the distribution of the score from attempt to attempt.
+# It shares no code with the program and is written from the papers: weights from the ratio of the
+# binomial likelihoods (dbinom), scores by Reduce, probabilities twice - by running through all 2^n
+# series of passes and failures, and by carrying the distribution of the score from attempt to attempt.
 # Average run lengths come from the R package surveillance (Hoehle), which knows nothing of this
 # program.
 #
