@@ -18725,6 +18725,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch wartet darauf, gesendet zu werden.</numerusform>
+                <numerusform>{n} Versuche warten darauf, gesendet zu werden.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts wait to be sent: `acus store sync`</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch wartet darauf, gesendet zu werden: `acus store sync`</numerusform>
+                <numerusform>{n} Versuche warten darauf, gesendet zu werden: `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch {whose}</numerusform>
@@ -18781,6 +18795,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} ausgelassen</numerusform>
+                <numerusform>{n} ausgelassen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} memberships {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} Mitgliedschaft {whose}</numerusform>
@@ -18792,6 +18813,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Name {whose}</numerusform>
                 <numerusform>{n} Namen {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} packets</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paket</numerusform>
+                <numerusform>{n} Pakete</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18830,6 +18858,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} stations wait to be let in: Stations, Exchange now</source>
+            <translation type="unfinished">
+                <numerusform>{n} Station wartet auf Einlass: Stationen, Jetzt austauschen</numerusform>
+                <numerusform>{n} Stationen warten auf Einlass: Stationen, Jetzt austauschen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} students</source>
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer</numerusform>
@@ -18841,6 +18876,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} things sent</source>
+            <translation type="unfinished">
+                <numerusform>{n} Sache gesendet</numerusform>
+                <numerusform>{n} Sachen gesendet</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19787,12 +19829,56 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Stationen werden zusammengeführt</translation>
         </message>
         <message>
+            <source>The database that the stations of a school share: postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite on a share. Empty: none.</source>
+            <translation type="unfinished">Die Datenbank, die sich die Stationen einer Schule teilen: postgresql+psycopg://Benutzer:Passwort@Rechner/Name oder sqlite:////Ordner/Datei.sqlite auf einer Freigabe. Leer: keine.</translation>
+        </message>
+        <message>
+            <source>Students and courses of this station go there</source>
+            <translation type="unfinished">Studierende und Kurse dieser Station gehen dorthin</translation>
+        </message>
+        <message>
+            <source>With their PINs, as hashes</source>
+            <translation type="unfinished">Mit ihren PINs, als Hashwerte</translation>
+        </message>
+        <message>
+            <source>The school's store</source>
+            <translation type="unfinished">Der Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>URL</source>
+            <translation type="unfinished">URL</translation>
+        </message>
+        <message>
+            <source>Exchanging with the school's store</source>
+            <translation type="unfinished">Austausch mit dem Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>Connecting to the school's store</source>
+            <translation type="unfinished">Verbinden mit dem Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>School's store: up to date at {time}</source>
+            <translation type="unfinished">Speicher der Schule: auf dem Stand von {time}</translation>
+        </message>
+        <message>
+            <source>From other stations</source>
+            <translation type="unfinished">Von anderen Stationen</translation>
+        </message>
+        <message>
             <source>Let these stations in?</source>
             <translation type="unfinished">Diese Stationen zulassen?</translation>
         </message>
         <message>
             <source>Let them in</source>
             <translation type="unfinished">Zulassen</translation>
+        </message>
+        <message>
+            <source>Exchange with the school's store now</source>
+            <translation type="unfinished">Jetzt mit dem Speicher der Schule austauschen</translation>
+        </message>
+        <message>
+            <source>Connect to the school's store…</source>
+            <translation type="unfinished">Mit dem Speicher der Schule verbinden…</translation>
         </message>
         <message>
             <source>Write this station's results</source>
@@ -19833,6 +19919,126 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Files of stations (*.acus)</source>
             <translation type="unfinished">Dateien von Stationen (*.acus)</translation>
+        </message>
+        <message>
+            <source>{store:?the school's store is {store}|this station shares no store}</source>
+            <translation type="unfinished">{store:?der Speicher der Schule ist {store}|diese Station teilt keinen Speicher}</translation>
+        </message>
+        <message>
+            <source>{gives_course:?people and courses of this station go there|}</source>
+            <translation type="unfinished">{gives_course:?Personen und Kurse dieser Station gehen dorthin|}</translation>
+        </message>
+        <message>
+            <source>this station shares no store: `acus store connect URL` connects it</source>
+            <translation type="unfinished">diese Station teilt keinen Speicher: `acus store connect URL` verbindet sie</translation>
+        </message>
+        <message>
+            <source>{sent:#1 packet|# packets} sent; {attempts:#1 attempt|# attempts}, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses} came; {erased} erased</source>
+            <translation type="unfinished">{sent:#1 Paket|# Pakete} gesendet; {attempts:#1 Versuch|# Versuche}, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Person|# Personen}, {courses:#1 Kurs|# Kurse} gekommen; {erased} gelöscht</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✖ left out: {}</source>
+            <translation type="unfinished">✖ ausgelassen: {}</translation>
+        </message>
+        <message>
+            <source>of erased people taken out of the store</source>
+            <translation type="unfinished">gelöschter Personen aus dem Speicher genommen</translation>
+        </message>
+        <message>
+            <source>the school's store {name} has no room left: its administrator makes some; nothing is lost, it is sent once there is</source>
+            <translation type="unfinished">der Speicher der Schule {name} ist voll: seine Verwaltung schafft Platz; nichts ist verloren, es wird dann gesendet</translation>
+        </message>
+        <message>
+            <source>the school's store {name} may only be read by this user: its administrator gives the right to write; nothing is lost, it is sent then</source>
+            <translation type="unfinished">der Speicher der Schule {name} kann von diesem Benutzer nur gelesen werden: seine Verwaltung gibt das Recht zu schreiben; nichts ist verloren, es wird dann gesendet</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not know this user and password: give those of its administrator in the URL</source>
+            <translation type="unfinished">der Speicher der Schule {name} kennt diesen Benutzer und dieses Passwort nicht: die der Verwaltung in der URL angeben</translation>
+        </message>
+        <message>
+            <source>there is no such database at {name}: its administrator makes it (`createdb`)</source>
+            <translation type="unfinished">bei {name} gibt es diese Datenbank nicht: seine Verwaltung legt sie an (`createdb`)</translation>
+        </message>
+        <message>
+            <source>the school's store {name} takes longer than {seconds:g} s: this station goes on and tries again</source>
+            <translation type="unfinished">der Speicher der Schule {name} braucht länger als {seconds:g} s: diese Station macht weiter und versucht es wieder</translation>
+        </message>
+        <message>
+            <source>{name} is no school's store, or a damaged one: give the URL of an empty database, or bring it back from its backup</source>
+            <translation type="unfinished">{name} ist kein Speicher einer Schule oder ein beschädigter: die URL einer leeren Datenbank angeben oder ihn aus seiner Sicherung zurückholen</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">der Speicher der Schule {name} antwortet nicht: diese Station macht weiter und versucht es wieder ({reason})</translation>
+        </message>
+        <message>
+            <source>{url} is no place for objects: {reason}</source>
+            <translation type="unfinished">{url} ist kein Ort für Objekte: {reason}</translation>
+        </message>
+        <message>
+            <source>the object {digest} of the school's store is missing or damaged: its administrator brings it back from a backup; the rest was taken</source>
+            <translation type="unfinished">das Objekt {digest} des Speichers der Schule fehlt oder ist beschädigt: seine Verwaltung holt es aus einer Sicherung zurück; der Rest wurde übernommen</translation>
+        </message>
+        <message>
+            <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">die Objekte des Speichers der Schule sind nicht zu benutzen: diese Station macht weiter und versucht es wieder ({reason})</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{path} sagt nicht, wo der Speicher der Schule ist: diese Station mit `acus store connect URL` neu verbinden</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {reason}</source>
+            <translation type="unfinished">{path} ist nicht zu schreiben: {reason}</translation>
+        </message>
+        <message>
+            <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
+            <translation type="unfinished">die Dateien des Speichers der Schule {name} liegen anderswo: --objects angeben wie an den anderen Stationen</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder} for the school's store: make it, or look whether the share is there</source>
+            <translation type="unfinished">es gibt keinen Ordner {folder} für den Speicher der Schule: ihn anlegen oder nachsehen, ob die Freigabe da ist</translation>
+        </message>
+        <message>
+            <source>the school's store {name} lies where files cannot be locked, so that two stations would break it: put it into PostgreSQL, or on a share with locks</source>
+            <translation type="unfinished">der Speicher der Schule {name} liegt, wo Dateien nicht gesperrt werden können, so dass zwei Stationen ihn zerstören würden: in PostgreSQL legen oder auf eine Freigabe mit Sperren</translation>
+        </message>
+        <message>
+            <source>{url!r} is no URL of a school's store: give postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite</source>
+            <translation type="unfinished">{url!r} ist keine URL eines Speichers einer Schule: postgresql+psycopg://Benutzer:Passwort@Rechner/Name angeben oder sqlite:////Ordner/Datei.sqlite</translation>
+        </message>
+        <message>
+            <source>sending</source>
+            <translation type="unfinished">wird gesendet</translation>
+        </message>
+        <message>
+            <source>{name} is not sent: it was altered</source>
+            <translation type="unfinished">{name} wird nicht gesendet: der Versuch wurde verändert</translation>
+        </message>
+        <message>
+            <source>taking in</source>
+            <translation type="unfinished">wird übernommen</translation>
+        </message>
+        <message>
+            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">die Station {name} ist hier nicht bekannt: {fingerprint} mit `acus store stations` dort vergleichen, dann einlassen (`acus store sync --trust`)</translation>
+        </message>
+        <message>
+            <source>packet {place} of the school's store</source>
+            <translation type="unfinished">Paket {place} des Speichers der Schule</translation>
+        </message>
+        <message>
+            <source>the school's store {name} was made by a newer version of Acus (step {here}, this one knows {known}): use that version here too; this station goes on by itself</source>
+            <translation type="unfinished">der Speicher der Schule {name} stammt von einer neueren Version von Acus (Schritt {here}, diese kennt {known}): diese Version auch hier benutzen; die Station macht allein weiter</translation>
+        </message>
+        <message>
+            <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
+            <translation type="unfinished">{name} enthält Tabellen eines anderen Programms ({table}): dem Speicher der Schule eine eigene Datenbank geben</translation>
         </message>
         <message>
             <source>failure rates {acceptable:g} (acceptable) and {unacceptable:g} (unacceptable): the first must be less than the second, both between 0 and 1</source>

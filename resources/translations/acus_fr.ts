@@ -18725,6 +18725,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative attend d’être envoyée.</numerusform>
+                <numerusform>{n} tentatives attendent d’être envoyées.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts wait to be sent: `acus store sync`</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative attend d’être envoyée : `acus store sync`</numerusform>
+                <numerusform>{n} tentatives attendent d’être envoyées : `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} essai {whose}</numerusform>
@@ -18781,6 +18795,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} écarté</numerusform>
+                <numerusform>{n} écartés</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} memberships {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} appartenance {whose}</numerusform>
@@ -18792,6 +18813,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} nom {whose}</numerusform>
                 <numerusform>{n} noms {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} packets</source>
+            <translation type="unfinished">
+                <numerusform>{n} paquet</numerusform>
+                <numerusform>{n} paquets</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18830,6 +18858,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} stations wait to be let in: Stations, Exchange now</source>
+            <translation type="unfinished">
+                <numerusform>{n} poste attend d’être admis : Postes, Échanger maintenant</numerusform>
+                <numerusform>{n} postes attendent d’être admis : Postes, Échanger maintenant</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} students</source>
             <translation type="unfinished">
                 <numerusform>{n} étudiant</numerusform>
@@ -18841,6 +18876,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} étudiant {whose}</numerusform>
                 <numerusform>{n} étudiants {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} things sent</source>
+            <translation type="unfinished">
+                <numerusform>{n} élément envoyé</numerusform>
+                <numerusform>{n} éléments envoyés</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19787,12 +19829,56 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Réunion des postes</translation>
         </message>
         <message>
+            <source>The database that the stations of a school share: postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite on a share. Empty: none.</source>
+            <translation type="unfinished">La base de données que partagent les postes d’une école : postgresql+psycopg://utilisateur:motdepasse@hôte/nom, ou sqlite:////dossier/fichier.sqlite sur un partage. Vide : aucune.</translation>
+        </message>
+        <message>
+            <source>Students and courses of this station go there</source>
+            <translation type="unfinished">Les étudiants et les cours de ce poste y vont</translation>
+        </message>
+        <message>
+            <source>With their PINs, as hashes</source>
+            <translation type="unfinished">Avec leurs codes PIN, hachés</translation>
+        </message>
+        <message>
+            <source>The school's store</source>
+            <translation type="unfinished">La base de l’école</translation>
+        </message>
+        <message>
+            <source>URL</source>
+            <translation type="unfinished">URL</translation>
+        </message>
+        <message>
+            <source>Exchanging with the school's store</source>
+            <translation type="unfinished">Échange avec la base de l’école</translation>
+        </message>
+        <message>
+            <source>Connecting to the school's store</source>
+            <translation type="unfinished">Connexion à la base de l’école</translation>
+        </message>
+        <message>
+            <source>School's store: up to date at {time}</source>
+            <translation type="unfinished">Base de l’école : à jour à {time}</translation>
+        </message>
+        <message>
+            <source>From other stations</source>
+            <translation type="unfinished">D’autres postes</translation>
+        </message>
+        <message>
             <source>Let these stations in?</source>
             <translation type="unfinished">Admettre ces postes ?</translation>
         </message>
         <message>
             <source>Let them in</source>
             <translation type="unfinished">Admettre</translation>
+        </message>
+        <message>
+            <source>Exchange with the school's store now</source>
+            <translation type="unfinished">Échanger maintenant avec la base de l’école</translation>
+        </message>
+        <message>
+            <source>Connect to the school's store…</source>
+            <translation type="unfinished">Se connecter à la base de l’école…</translation>
         </message>
         <message>
             <source>Write this station's results</source>
@@ -19833,6 +19919,126 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Files of stations (*.acus)</source>
             <translation type="unfinished">Fichiers de postes (*.acus)</translation>
+        </message>
+        <message>
+            <source>{store:?the school's store is {store}|this station shares no store}</source>
+            <translation type="unfinished">{store:?la base de l’école est {store}|ce poste ne partage aucune base}</translation>
+        </message>
+        <message>
+            <source>{gives_course:?people and courses of this station go there|}</source>
+            <translation type="unfinished">{gives_course:?les personnes et les cours de ce poste y vont|}</translation>
+        </message>
+        <message>
+            <source>this station shares no store: `acus store connect URL` connects it</source>
+            <translation type="unfinished">ce poste ne partage aucune base : `acus store connect URL` le connecte</translation>
+        </message>
+        <message>
+            <source>{sent:#1 packet|# packets} sent; {attempts:#1 attempt|# attempts}, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses} came; {erased} erased</source>
+            <translation type="unfinished">{sent:#1 paquet envoyé|# paquets envoyés} ; {attempts:#1 tentative|# tentatives}, {remarks:#1 remarque|# remarques}, {people:#1 étudiant|# étudiants}, {courses:#1 cours|# cours} reçus ; {erased} effacés</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✖ left out: {}</source>
+            <translation type="unfinished">✖ écarté : {}</translation>
+        </message>
+        <message>
+            <source>of erased people taken out of the store</source>
+            <translation type="unfinished">de personnes effacées retirés de la base</translation>
+        </message>
+        <message>
+            <source>the school's store {name} has no room left: its administrator makes some; nothing is lost, it is sent once there is</source>
+            <translation type="unfinished">la base de l’école {name} est pleine : son administrateur fait de la place ; rien n’est perdu, l’envoi suivra</translation>
+        </message>
+        <message>
+            <source>the school's store {name} may only be read by this user: its administrator gives the right to write; nothing is lost, it is sent then</source>
+            <translation type="unfinished">la base de l’école {name} ne peut qu’être lue par cet utilisateur : son administrateur donne le droit d’écrire ; rien n’est perdu, l’envoi suivra</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not know this user and password: give those of its administrator in the URL</source>
+            <translation type="unfinished">la base de l’école {name} ne connaît ni cet utilisateur ni ce mot de passe : donnez dans l’URL ceux de son administrateur</translation>
+        </message>
+        <message>
+            <source>there is no such database at {name}: its administrator makes it (`createdb`)</source>
+            <translation type="unfinished">il n’y a pas une telle base à {name} : son administrateur la crée (`createdb`)</translation>
+        </message>
+        <message>
+            <source>the school's store {name} takes longer than {seconds:g} s: this station goes on and tries again</source>
+            <translation type="unfinished">la base de l’école {name} met plus de {seconds:g} s : ce poste continue et réessaie</translation>
+        </message>
+        <message>
+            <source>{name} is no school's store, or a damaged one: give the URL of an empty database, or bring it back from its backup</source>
+            <translation type="unfinished">{name} n’est pas la base d’une école, ou elle est endommagée : donnez l’URL d’une base vide, ou rétablissez-la depuis sa sauvegarde</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">la base de l’école {name} ne répond pas : ce poste continue et réessaie ({reason})</translation>
+        </message>
+        <message>
+            <source>{url} is no place for objects: {reason}</source>
+            <translation type="unfinished">{url} n’est pas un lieu pour des objets : {reason}</translation>
+        </message>
+        <message>
+            <source>the object {digest} of the school's store is missing or damaged: its administrator brings it back from a backup; the rest was taken</source>
+            <translation type="unfinished">l’objet {digest} de la base de l’école manque ou est endommagé : son administrateur le rétablit depuis une sauvegarde ; le reste a été pris</translation>
+        </message>
+        <message>
+            <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">les objets de la base de l’école sont inutilisables : ce poste continue et réessaie ({reason})</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{path} ne dit pas où est la base de l’école : reconnectez ce poste avec `acus store connect URL`</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {reason}</source>
+            <translation type="unfinished">impossible d’écrire {path} : {reason}</translation>
+        </message>
+        <message>
+            <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
+            <translation type="unfinished">les fichiers de la base de l’école {name} sont ailleurs : donnez --objects comme sur les autres postes</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder} for the school's store: make it, or look whether the share is there</source>
+            <translation type="unfinished">il n’y a pas de dossier {folder} pour la base de l’école : créez-le, ou vérifiez que le partage est là</translation>
+        </message>
+        <message>
+            <source>the school's store {name} lies where files cannot be locked, so that two stations would break it: put it into PostgreSQL, or on a share with locks</source>
+            <translation type="unfinished">la base de l’école {name} est là où les fichiers ne peuvent être verrouillés, deux postes la casseraient : mettez-la dans PostgreSQL, ou sur un partage avec verrous</translation>
+        </message>
+        <message>
+            <source>{url!r} is no URL of a school's store: give postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite</source>
+            <translation type="unfinished">{url!r} n’est pas l’URL de la base d’une école : donnez postgresql+psycopg://utilisateur:motdepasse@hôte/nom, ou sqlite:////dossier/fichier.sqlite</translation>
+        </message>
+        <message>
+            <source>sending</source>
+            <translation type="unfinished">envoi</translation>
+        </message>
+        <message>
+            <source>{name} is not sent: it was altered</source>
+            <translation type="unfinished">{name} n’est pas envoyée : elle a été modifiée</translation>
+        </message>
+        <message>
+            <source>taking in</source>
+            <translation type="unfinished">réception</translation>
+        </message>
+        <message>
+            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">le poste {name} n’est pas connu ici : comparez {fingerprint} avec `acus store stations` là-bas, puis admettez-le (`acus store sync --trust`)</translation>
+        </message>
+        <message>
+            <source>packet {place} of the school's store</source>
+            <translation type="unfinished">paquet {place} de la base de l’école</translation>
+        </message>
+        <message>
+            <source>the school's store {name} was made by a newer version of Acus (step {here}, this one knows {known}): use that version here too; this station goes on by itself</source>
+            <translation type="unfinished">la base de l’école {name} a été faite par une version plus récente d’Acus (étape {here}, celle-ci connaît {known}) : utilisez cette version ici aussi ; ce poste continue seul</translation>
+        </message>
+        <message>
+            <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
+            <translation type="unfinished">{name} contient les tables d’un autre programme ({table}) : donnez à la base de l’école une base à elle</translation>
         </message>
         <message>
             <source>failure rates {acceptable:g} (acceptable) and {unacceptable:g} (unacceptable): the first must be less than the second, both between 0 and 1</source>

@@ -287,6 +287,8 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("store", "results", "--out", out),
         ("store", "station", "--out", out),
         ("store", "gather", out),
+        ("store", "connect", "sqlite:///out.sqlite"),
+        ("store", "sync"),
     ]
     for words in doors:
         assert "a question was not answered" in acus(*words, code=2), words

@@ -30,7 +30,7 @@ NEEDS_MORE = {
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
     "results export", "session delete", "session restore", "store gather", "store restore",
-    "store revoke",
+    "store revoke", "store sync",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
@@ -122,6 +122,7 @@ EXAMPLES = {
     "session export": ("--out", "all.csv"),
     "session list": (),
     "store backup": ("--out", "all.acusbackup"),
+    "store connect": ("sqlite:///school.sqlite",),
     "store empty-trash": (),
     "store rebuild": (),
     "store renew": (),

@@ -50,6 +50,7 @@ from app.views.people.pages import (
     text_dialog,
 )
 from app.views.people.results_report import group_report, student_report, write_report
+from app.views.people.school_link import SchoolLink
 from app.views.people.stations import StationDoors, StationExchange
 from app.views.shell.feature import Context, Feature
 
@@ -82,6 +83,7 @@ class PeopleFeature(Feature):
 
     Attributes:
         page: board, students and courses.
+        link: to the store that the stations of a school share.
         stations: results of several stations, written and brought together.
         dialog: the one that was opened last.
     """
@@ -120,7 +122,10 @@ class PeopleFeature(Feature):
         with self._shell.made_for(STAFF):
             save = add_entries(menu, ((tr("Back up everything…"), "", self.back_up),))[0]
         self._actions = show, student, instructor, leave, save
-        self.stations = StationExchange(self.page.board.stations, self._doors())
+        controller = context.conductor.controller
+        self.link = SchoolLink(self._doors(), lambda: controller.is_running, self)
+        self.link.told.connect(self.page.board.show_store)
+        self.stations = StationExchange(self.page.board.stations, self._doors(), self.link)
         self._connect()
         ACCESS.changed.connect(self._follow)
         self._follow()
@@ -140,6 +145,7 @@ class PeopleFeature(Feature):
 
     def close(self) -> None:
         """End what runs, and the dialog that is open; nobody stays signed in."""
+        self.link.close()
         for task in tuple(self._running):
             task.close()
         if self.dialog is not None:
@@ -626,6 +632,7 @@ class PeopleFeature(Feature):
 
     def _ended(self) -> None:
         """Look again: what may be begun next has changed with an attempt that ended."""
+        self.link.soon()
         if ACCESS.student is not None:
             self.look()
 
