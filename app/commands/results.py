@@ -51,7 +51,7 @@ def register(app: typer.Typer) -> None:
 def board(
     course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
 ) -> Answer:
-    """Show best, last, trend and time since, by exercise (instructor).
+    """Show best, last, trend, time since and competence, by exercise (instructor).
 
     Only comparable attempts count, none of a scripted trainee or an emulated board.
     """
@@ -73,13 +73,15 @@ def curve(
     course: CourseOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Show a student's points with best and moving median (instructor)."""
+    """Show a student's points with best and moving median, and competence (instructor)."""
+    from app.exchange.results import competence_document
     from app.session.people import People
 
     instructor()
     person = People().find(pseudonym)
     found, _, _ = _board(course, "", folder)
     points = found.curve(person.key, exercise)
+    standing = competence_document(found, person.key, exercise)
     facts = {
         "pseudonym": person.pseudonym,
         "exercise": exercise,
@@ -93,6 +95,7 @@ def curve(
             }
             for p in points
         ],
+        "competence": standing,
     }
     row = template("{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}")
     nothing = sentence(
@@ -100,8 +103,8 @@ def curve(
         pseudonym=pseudonym,
         exercise=exercise,
     )
-    none = [] if points else [nothing]
-    return Answer(facts, none, shown=Each("points", row))
+    lines = [nothing] if standing is None else [standing["words"]]
+    return Answer(facts, lines, shown=Each("points", row))
 
 
 def export(
@@ -326,4 +329,5 @@ def _cell(row: dict[str, Any]) -> Sentence:
             days=row["since_s"] / 86400.0,
         )
     others = sentence(" ({others} not counted)", others=row["others"]) if row["others"] else ""
-    return joined("", (points, others))
+    competent = ("; ", row["competence"]["words"]) if row["competence"] else ()
+    return joined("", (points, others, *competent))
