@@ -115,7 +115,7 @@ def sync(
         "erased": got.erased,
         "taken_out": done.erased,
         "excess": got.excess,
-        "unknown": list(done.unknown),
+        "unknown": [one._asdict() for one in done.unknown],
         "refused": [*done.refused, *got.different],
     }
     shown = (
@@ -124,7 +124,13 @@ def sync(
             "{remarks:#1 remark|# remarks}, {people:#1 student|# students}, "
             "{courses:#1 course|# courses} came; {erased} erased"
         ),
-        Each("unknown", template("✖ {}")),
+        Each(
+            "unknown",
+            template(
+                "✖ the station {name} is not known here: compare {fingerprint} with `acus store "
+                "stations` there, then let it in (`acus store sync --trust`)"
+            ),
+        ),
         Each("refused", template("✖ left out: {}")),
     )
     lines = []

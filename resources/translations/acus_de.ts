@@ -18940,6 +18940,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} packets sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paket gesendet.</numerusform>
+                <numerusform>{n} Pakete gesendet.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} pairs of attempts</source>
             <translation type="unfinished">
                 <numerusform>{n} Paar von Versuchen</numerusform>
@@ -18993,13 +19000,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} things sent</source>
-            <translation type="unfinished">
-                <numerusform>{n} Sache gesendet</numerusform>
-                <numerusform>{n} Sachen gesendet</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19963,7 +19963,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Students and courses of this station go there</source>
-            <translation type="unfinished">Studierende und Kurse dieser Station gehen dorthin</translation>
+            <translation type="unfinished">Teilnehmer und Kurse dieser Station gehen dorthin</translation>
         </message>
         <message>
             <source>With their PINs, as hashes</source>
@@ -19992,6 +19992,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>From other stations</source>
             <translation type="unfinished">Von anderen Stationen</translation>
+        </message>
+        <message>
+            <source>Nothing was waiting to be sent.</source>
+            <translation type="unfinished">Es wartete nichts darauf, gesendet zu werden.</translation>
+        </message>
+        <message>
+            <source>Compare each with what `acus store stations` says there.</source>
+            <translation type="unfinished">Vergleichen Sie jede mit dem, was `acus store stations` dort sagt.</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
@@ -20066,8 +20074,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{sent:#1 Paket|# Pakete} gesendet; {attempts:#1 Versuch|# Versuche}, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Person|# Personen}, {courses:#1 Kurs|# Kurse} gekommen; {erased} gelöscht</translation>
         </message>
         <message>
-            <source>✖ {}</source>
-            <translation type="unfinished">✖ {}</translation>
+            <source>✖ the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">✖ die Station {name} ist hier nicht bekannt: {fingerprint} mit `acus store stations` dort vergleichen, dann einlassen (`acus store sync --trust`)</translation>
         </message>
         <message>
             <source>✖ left out: {}</source>
@@ -20152,10 +20160,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>taking in</source>
             <translation type="unfinished">wird übernommen</translation>
-        </message>
-        <message>
-            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
-            <translation type="unfinished">die Station {name} ist hier nicht bekannt: {fingerprint} mit `acus store stations` dort vergleichen, dann einlassen (`acus store sync --trust`)</translation>
         </message>
         <message>
             <source>packet {place} of the school's store</source>

@@ -18940,6 +18940,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} packets sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} paquet envoyé.</numerusform>
+                <numerusform>{n} paquets envoyés.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} pairs of attempts</source>
             <translation type="unfinished">
                 <numerusform>{n} paire d’essais</numerusform>
@@ -18993,13 +19000,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} étudiant {whose}</numerusform>
                 <numerusform>{n} étudiants {whose}</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} things sent</source>
-            <translation type="unfinished">
-                <numerusform>{n} élément envoyé</numerusform>
-                <numerusform>{n} éléments envoyés</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19994,6 +19994,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">D’autres postes</translation>
         </message>
         <message>
+            <source>Nothing was waiting to be sent.</source>
+            <translation type="unfinished">Rien n’attendait d’être envoyé.</translation>
+        </message>
+        <message>
+            <source>Compare each with what `acus store stations` says there.</source>
+            <translation type="unfinished">Comparez chacun avec ce que dit `acus store stations` là-bas.</translation>
+        </message>
+        <message>
             <source>Let these stations in?</source>
             <translation type="unfinished">Admettre ces postes ?</translation>
         </message>
@@ -20066,8 +20074,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{sent:#1 paquet envoyé|# paquets envoyés} ; {attempts:#1 tentative|# tentatives}, {remarks:#1 remarque|# remarques}, {people:#1 étudiant|# étudiants}, {courses:#1 cours|# cours} reçus ; {erased} effacés</translation>
         </message>
         <message>
-            <source>✖ {}</source>
-            <translation type="unfinished">✖ {}</translation>
+            <source>✖ the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">✖ le poste {name} n’est pas connu ici : comparez {fingerprint} avec `acus store stations` là-bas, puis admettez-le (`acus store sync --trust`)</translation>
         </message>
         <message>
             <source>✖ left out: {}</source>
@@ -20152,10 +20160,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>taking in</source>
             <translation type="unfinished">réception</translation>
-        </message>
-        <message>
-            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
-            <translation type="unfinished">le poste {name} n’est pas connu ici : comparez {fingerprint} avec `acus store stations` là-bas, puis admettez-le (`acus store sync --trust`)</translation>
         </message>
         <message>
             <source>packet {place} of the school's store</source>

@@ -237,7 +237,7 @@ def test_a_station_that_is_not_known_waits_until_the_instructor_lets_it_in(
     meet(north, place)
     result = meet(head, place, trust=False)
     assert len(result.unknown) == 1
-    assert "north" in result.unknown[0]
+    assert result.unknown[0].name == "north"
     assert not stored(head)["attempts"]
     assert len(meet(head, place, trust=False).unknown) == 1  # and is told again
     meet(head, place, trust=True)
@@ -312,6 +312,7 @@ def test_a_database_of_another_program_is_left_alone(tmp_path: Path) -> None:
         ("sqlite://", "is no URL"),
         ("sqlite:////nowhere/at/all/school.sqlite", "no folder /nowhere/at/all"),
         ("postgresql+psycopg://acus:hidden@127.0.0.1:1/acus", "does not answer"),
+        ("postgresql://acus:hidden@127.0.0.1:1/acus", "does not answer"),
     ],
 )
 def test_a_url_that_leads_nowhere_is_told_in_one_line_without_its_password(

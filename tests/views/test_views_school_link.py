@@ -102,7 +102,7 @@ def test_a_store_that_is_away_is_told_with_how_many_attempts_wait(
     feature.show()
     feature.link.quietly()
     board = feature.page.board
-    assert settle(lambda: "no folder" in board.store.text())
+    assert settle(lambda: "here is no folder" in board.store.text())
     assert board.store.text().endswith("1 attempt waits to be sent.")
     share.mkdir()
     feature.link.now()

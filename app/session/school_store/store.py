@@ -303,6 +303,8 @@ class SchoolStore:
         url = make_url(self._url)
         arguments: dict[str, Any]
         sqlite = url.get_backend_name() == "sqlite"
+        if not sqlite:  # whichever way it is written: by the one driver that the extra brings
+            url = url.set(drivername="postgresql+psycopg")
         if sqlite:
             _check_folder(Path(str(url.database)), self.name)
             arguments = {"timeout": self._seconds}

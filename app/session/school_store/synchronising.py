@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from app.core.messages import sentence, sentence_of
 from app.core.progress import Progress
@@ -43,6 +43,13 @@ _PACKETS: Final = 100
 """Bytes and packets that travel at once."""
 
 
+class StrangeStation(NamedTuple):
+    """A station that is not known here: its name, and what to compare of its key."""
+
+    name: str
+    fingerprint: str
+
+
 @dataclass(frozen=True, slots=True)
 class Synchronised:
     """What came of it.
@@ -51,7 +58,7 @@ class Synchronised:
         store: its name.
         sent: packets of this station that were not there.
         gathered: what came here, all packets together.
-        unknown: a line for each station whose packets wait until it is known here.
+        unknown: stations whose packets wait until they are known here.
         refused: a line for each packet or attempt that is left out.
         erased: packets that were taken out of the store because their student was erased.
     """
@@ -59,7 +66,7 @@ class Synchronised:
     store: str
     sent: int = 0
     gathered: GatheredFile = field(default_factory=GatheredFile)
-    unknown: tuple[str, ...] = ()
+    unknown: tuple[StrangeStation, ...] = ()
     refused: tuple[str, ...] = ()
     erased: int = 0
 
@@ -291,14 +298,9 @@ class _Synchronising:
 
     def _name_unknown(self, station: str, file: OpenedFile) -> None:
         sender = file.manifest.sender
-        line = sentence(
-            "the station {name} is not known here: compare {fingerprint} with `acus store stations`"
-            " there, then let it in (`acus store sync --trust`)",
-            name=sender.name,
-            fingerprint=fingerprint(sender.public),
-        )
+        one = StrangeStation(sender.name, fingerprint(sender.public))
         self.strange.add(station)
-        self.result = replace(self.result, unknown=(*self.result.unknown, line))
+        self.result = replace(self.result, unknown=(*self.result.unknown, one))
 
 
 def _opened(seq: int, data: bytes) -> OpenedFile:

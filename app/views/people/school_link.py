@@ -48,7 +48,8 @@ class NotReached:
 
     def words(self) -> str:
         """Return both in one line."""
-        return " ".join(filter(None, (f"{translated(self.error)}.", self.waiting_words())))
+        line = translated(self.error)
+        return " ".join(filter(None, (f"{line[:1].upper()}{line[1:]}.", self.waiting_words())))
 
     def waiting_words(self) -> str:
         """Return how many attempts wait; empty where none does."""
@@ -238,15 +239,16 @@ class SchoolLink(QObject):
         self._tell_state(result)
         self._doors.changed()
         got = replace(result.gathered, station=tr("From other stations"))
-        refused = tuple(PeopleError(line) for line in (*result.refused, *result.unknown))
-        lines = summary_words(Gathered((got,), refused, ()))
-        sent = tr_n("{n} thing sent", "{n} things sent", result.sent)
+        lines = summary_words(Gathered((got,), tuple(map(PeopleError, result.refused)), ()))
         if not result.unknown:
-            self._doors.tell(tr("The school's store"), sent, lines)
+            sent = tr_n("{n} packet sent.", "{n} packets sent.", result.sent)
+            nothing = tr("Nothing was waiting to be sent.")
+            self._doors.tell(tr("The school's store"), sent if result.sent else nothing, lines)
             return
-        box = message_box(
-            self._doors.parent(), tr("The school's store"), tr("Let these stations in?"), lines
-        )
+        strange = "\n".join(f"{one.name}: {one.fingerprint}" for one in result.unknown)
+        words = tr("Compare each with what `acus store stations` says there.") + f"\n\n{strange}"
+        title = tr("The school's store")
+        box = message_box(self._doors.parent(), title, tr("Let these stations in?"), words)
         accept = box.addButton(tr("Let them in"), QMessageBox.ButtonRole.AcceptRole)
         box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))
         box.buttonClicked.connect(
