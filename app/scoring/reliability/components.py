@@ -21,13 +21,12 @@ from types import MappingProxyType
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.scoring.errors import ReliabilityError
 from app.scoring.reliability.icc import NO_VARIANCE
-from app.scoring.reliability.reml import reml
+from app.scoring.reliability.reml import Effect, reml
 
 STUDENT: Final = "student"
 EXERCISE: Final = "exercise"
@@ -209,10 +208,10 @@ def _restricted(values: FloatArray, facets: list[str]) -> dict[str, float]:
     """Return the components of a cube with missing cells."""
     cells = np.argwhere(np.isfinite(values))
     points = values[tuple(cells.T)]
-    effects = _effects(facets)[:-1]
-    levels: list[NDArray[np.intp]] = []
-    for effect in effects:
-        columns = cells[:, [FACETS.index(facet) for facet in effect]]
-        levels.append(np.unique(columns, axis=0, return_inverse=True)[1].reshape(-1))
-    names = [_name(effect, facets) for effect in effects]
-    return dict(zip([*names, RESIDUAL], reml(points, levels, names), strict=True))
+    effects = []
+    for own in _effects(facets)[:-1]:
+        columns = cells[:, [FACETS.index(facet) for facet in own]]
+        levels = np.unique(columns, axis=0, return_inverse=True)[1].reshape(-1)
+        effects.append(Effect(_name(own, facets), levels, nested=STUDENT in own))
+    estimates = reml(points, cells[:, 0], effects)
+    return dict(zip([*(effect.name for effect in effects), RESIDUAL], estimates, strict=True))

@@ -1,15 +1,16 @@
 """Variance components of crossed random effects by restricted maximum likelihood.
 
 The model is y = mean + Z_1 u_1 + ... + Z_m u_m + e with u_i ~ N(0, v_i), e ~ N(0, v). Each Z_i says
-which level an observation has. With the ratios g_i = v_i / v = t_i² the restricted deviance is, but
+which level an observation has. With the ratios v_i / v = t_i² the restricted deviance is, but
 for a constant, over v profiled out (Bates, D. and others 2015, Fitting linear mixed-effects models
 using lme4, Journal of Statistical Software 67(1), section 3),
 
     d(t) = log|M| + log a + (N - 1) log(y'Py),    M = I + T Z'Z T,    a = 1'H⁻¹1,
     H⁻¹ = I - Z T M⁻¹ T Z',    y'Py = y'H⁻¹y - (1'H⁻¹y)² / a,
 
-whose gradient needs the diagonal of M⁻¹ only. Z_i'Z_i of the effect with the most levels is
-diagonal, so that M is factorised by its Schur complement. It starts where the quadratic forms
+whose gradient needs the diagonal of M⁻¹ only. Levels of effects that are nested in students meet
+none of another student, so that M is factorised student by student, with the Schur complement of
+the other effects. It starts where the quadratic forms
 y'QZ_iZ_i'Qy have their expectations (Rao's MIVQUE of 0); the same equations tell whether the
 observations tell the effects apart at all.
 """
@@ -17,6 +18,7 @@ observations tell the effects apart at all.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -33,7 +35,22 @@ _ALIKE: Final = 1e-9
 """Least eigenvalue of the equations, scaled to a diagonal of 1, of effects that are told apart."""
 
 _FIRST: Final = 1e-3
-"""Least t to start from: at 0 itself the deviance is flat."""
+"""A smaller t is all but 0, where the deviance is flat whichever way it goes from there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """One random effect.
+
+    Attributes:
+        name: for messages.
+        levels: the level of each observation, counted from 0, shape (N,).
+        nested: whether each level belongs to one student.
+    """
+
+    name: str
+    levels: NDArray[np.intp]
+    nested: bool
 
 
 class _Deviance:
@@ -41,92 +58,114 @@ class _Deviance:
 
     Args:
         y: observations, shape (N,).
-        levels: of each effect, the level of each observation, counted from 0.
+        students: of each observation, counted from 0.
+        effects: with one at least that is nested, and one that is not.
     """
 
-    def __init__(self, y: FloatArray, levels: Sequence[NDArray[np.intp]]) -> None:
+    def __init__(
+        self, y: FloatArray, students: NDArray[np.intp], effects: Sequence[Effect]
+    ) -> None:
         self.n = len(y)
-        counts = [int(own.max()) + 1 for own in levels]
-        # the effect with the most levels comes first: its block is diagonal
-        self.order = sorted(range(len(levels)), key=lambda i: -counts[i])
-        ordered = [levels[i] for i in self.order]
-        self.sizes = [counts[i] for i in self.order]
-        self.y_one = np.column_stack([y, np.ones(self.n)])
-        self.inner = self.y_one.T @ self.y_one
-        self.sums = np.vstack([_sums(own, self.y_one) for own in ordered])
-        self.large = np.bincount(ordered[0]).astype(np.float64)
-        self.side = np.hstack([_table(ordered[0], own) for own in ordered[1:]])
-        self.rest = np.block([[_table(a, b) for b in ordered[1:]] for a in ordered[1:]])
-        self.blocks = np.repeat(np.arange(len(ordered)), self.sizes)
+        y_one = np.column_stack([y, np.ones(self.n)])
+        self.inner = y_one.T @ y_one
+        inside, self.own_inside = _columns([e for e in effects if e.nested], students)
+        outside, self.own_outside = _columns([e for e in effects if not e.nested])
+        self.inside = [place for place, e in enumerate(effects) if e.nested]
+        self.outside = [place for place, e in enumerate(effects) if not e.nested]
+        count, p, r = int(students.max()) + 1, len(self.own_inside), len(self.own_outside)
+        self.a, self.b = np.zeros((count, p, p)), np.zeros((count, p, r))
+        self.c = np.zeros((r, r))
+        self.sums_inside, self.sums_outside = np.zeros((count, p, 2)), np.zeros((r, 2))
+        for i in inside:
+            np.add.at(self.sums_inside, (students, i), y_one)
+            for j in inside:
+                np.add.at(self.a, (students, i, j), 1.0)
+            for j in outside:
+                np.add.at(self.b, (students, i, j), 1.0)
+        for i in outside:
+            np.add.at(self.sums_outside, i, y_one)
+            for j in outside:
+                np.add.at(self.c, (i, j), 1.0)
 
     def __call__(self, t: FloatArray) -> tuple[float, FloatArray]:
         """Return the deviance and its gradient.
 
         Args:
-            t: of each effect, in the order of the levels that were given.
+            t: of each effect, in their order.
         """
-        from scipy.linalg import cho_factor, cho_solve
+        value, gradient, _ = self.at(t)
+        return value, gradient
 
-        own = t[self.order]
-        scale = own[self.blocks]
-        first, others = scale[: self.sizes[0]], scale[self.sizes[0] :]
-        d = 1.0 + first * first * self.large
-        b = first[:, None] * self.side * others[None, :]
-        schur = np.eye(len(others)) + others[:, None] * self.rest * others[None, :]
-        over = b / d[:, None]
-        schur -= b.T @ over
-        factor = cho_factor(schur, lower=True, check_finite=False)
-        inverse = cho_solve(factor, np.eye(len(others)), check_finite=False)
-        turned = over @ inverse
-        diagonal = np.concatenate(
-            [1.0 / d + np.einsum("ij,ij->i", turned, over), np.diagonal(inverse)]
-        )
-        scaled = scale[:, None] * self.sums
-        up = scaled[: len(d)] / d[:, None]
-        low = inverse @ (scaled[len(d) :] - b.T @ up)
-        u = np.vstack([up - over @ low, low])  # M⁻¹ T Z' (y, 1)
-        inner = self.inner - scaled.T @ u  # (y, 1)' H⁻¹ (y, 1)
+    def at(self, t: FloatArray) -> tuple[float, FloatArray, float]:
+        """Return the deviance, its gradient, and y'Py."""
+        ti = t[self.inside][self.own_inside]
+        to = t[self.outside][self.own_outside]
+        d = np.eye(len(ti)) + ti[:, None] * self.a * ti
+        b = ti[:, None] * self.b * to
+        inverse_d = np.linalg.inv(d)
+        over = inverse_d @ b
+        flat, flat_over = b.reshape(-1, len(to)), over.reshape(-1, len(to))
+        schur = np.eye(len(to)) + to[:, None] * self.c * to - flat.T @ flat_over
+        inverse = np.linalg.inv(schur)
+        # M⁻¹ T Z' (y, 1), of the levels inside students and of the others
+        scaled, scaled_out = ti[:, None] * self.sums_inside, to[:, None] * self.sums_outside
+        up = inverse_d @ scaled
+        out = inverse @ (scaled_out - np.einsum("spr,spk->rk", b, up))
+        within = up - over @ out
+        inner = self.inner - np.einsum("spk,spl->kl", scaled, within) - scaled_out.T @ out
         a = float(inner[1, 1])
         mean = float(inner[0, 1]) / a
         rest = max(float(inner[0, 0]) - mean * float(inner[0, 1]), 1e-300)
-        log_m = float(np.log(d).sum()) + 2.0 * float(np.log(np.diagonal(factor[0])).sum())
+        log_m = float(np.linalg.slogdet(d)[1].sum()) + float(np.linalg.slogdet(schur)[1])
         value = log_m + np.log(a) + (self.n - 1) * np.log(rest)
-        # of one effect: tr(M⁻¹ dM) = 2 (levels - tr M⁻¹) / t; and Z_i'H⁻¹x = (M⁻¹ T Z'x)_i / t_i
-        weights = np.array([1.0, -mean])
-        random = u @ weights
+        # levels less trace of M⁻¹, and squares of Z_i'H⁻¹x t_i, by effect
+        lost = 1.0 - np.einsum("spp->sp", inverse_d) - ((over @ inverse) * over).sum(axis=-1)
         gradient = np.empty_like(t)
-        for place, effect in enumerate(self.order):
-            here = self.blocks == place
-            size = max(abs(float(own[place])), 1e-12)
-            trace = 2.0 * (self.sizes[place] - float(diagonal[here].sum())) / size
-            of_mean = -2.0 * float((u[here, 1] ** 2).sum()) / size / a
-            of_rest = -2.0 * float((random[here] ** 2).sum()) / size / rest
-            gradient[effect] = trace + of_mean + (self.n - 1) * of_rest
-        return float(value), gradient
+        for places, own, free, u in (
+            (self.inside, self.own_inside, lost.sum(axis=0), within),
+            (self.outside, self.own_outside, 1.0 - np.diagonal(inverse), out[None]),
+        ):
+            squares = (u[:, :, 1] ** 2).sum(axis=0) / a
+            squares += (self.n - 1) / rest * ((u[:, :, 0] - mean * u[:, :, 1]) ** 2).sum(axis=0)
+            for number, place in enumerate(places):
+                slope = 2.0 * float((free - squares)[own == number].sum())
+                gradient[place] = slope / float(t[place]) if abs(t[place]) > 1e-8 else 0.0
+        return float(value), gradient, rest
 
-    def chance(self, t: FloatArray) -> float:
-        """Return the variance of what is left."""
-        own = t[self.order][self.blocks]
-        m = np.eye(len(own)) + own[:, None] * self._whole() * own[None, :]
-        scaled = own[:, None] * self.sums
-        inner = self.inner - scaled.T @ np.linalg.solve(m, scaled)
-        return float((inner[0, 0] - inner[0, 1] ** 2 / inner[1, 1]) / (self.n - 1))
 
-    def _whole(self) -> FloatArray:
-        """Return Z'Z."""
-        whole: FloatArray = np.block([[np.diag(self.large), self.side], [self.side.T, self.rest]])
-        return whole
+def _columns(
+    effects: Sequence[Effect], students: NDArray[np.intp] | None = None
+) -> tuple[list[NDArray[np.intp]], NDArray[np.intp]]:
+    """Return the column of each observation in each effect, and the effect of each column.
+
+    Args:
+        effects: whose columns stand side by side.
+        students: of each observation: columns are counted anew for each; None counts through.
+    """
+    columns, own, begin = [], [], 0
+    for number, effect in enumerate(effects):
+        place = effect.levels
+        if students is not None:
+            first = np.full(int(students.max()) + 1, len(students))
+            np.minimum.at(first, students, place)
+            place = place - first[students]
+        width = int(place.max()) + 1
+        columns.append(begin + place)
+        own.append(np.full(width, number))
+        begin += width
+    return columns, np.concatenate(own)
 
 
 def reml(
-    points: FloatArray, levels: Sequence[NDArray[np.intp]], names: Sequence[str]
+    points: FloatArray, students: NDArray[np.intp], effects: Sequence[Effect]
 ) -> list[float]:
     """Return the variance of each effect and, at last, of what is left.
 
     Args:
         points: observations, shape (N,), which differ.
-        levels: of each effect, the level of each observation, counted from 0.
-        names: of the effects, for messages.
+        students: of each observation, counted from 0.
+        effects: with one at least that is nested in students, and one that is not; the levels of a
+            student follow one another.
 
     Raises:
         ReliabilityError: where the observations do not tell two effects apart, or leave nothing to
@@ -136,24 +175,22 @@ def reml(
 
     size = float(points.std())
     y = (points - points.mean()) / size
-    start = _start(y, levels, names)
-    deviance = _Deviance(y, levels)
-    bounds = [(0.0, _LARGEST)] * len(levels)
-    best = start
-    for _ in range(3):
+    best = _start(y, effects)
+    deviance = _Deviance(y, students, effects)
+    for _ in range(4):
         answer = minimize(
             deviance,
             best,
             jac=True,
             method="L-BFGS-B",
-            bounds=bounds,
-            options={"ftol": 1e-15, "gtol": 1e-9, "maxiter": 500, "maxls": 50},
+            bounds=[(-_LARGEST, _LARGEST)] * len(effects),
+            options={"ftol": 1e-16, "gtol": 1e-9, "maxiter": 500, "maxls": 50},
         )
-        best = np.asarray(answer.x, dtype=np.float64)
-        stuck = (best < _FIRST) & (_slope_at_zero(deviance, best) < 0.0)
-        if not stuck.any():
+        best = np.abs(answer.x)
+        grown = _grown_from_zero(deviance, best)
+        if (grown == best).all():
             break
-        best = np.where(stuck, 0.1, best)
+        best = grown
     if best.max() >= 0.99 * _LARGEST:
         raise ReliabilityError(
             sentence(
@@ -161,37 +198,42 @@ def reml(
                 "in more attempts, or a set in which every student has every exercise"
             )
         )
-    chance = deviance.chance(best)
-    return [*(float(t * t * chance * size * size) for t in best), chance * size * size]
+    chance = deviance.at(best)[2] / (len(y) - 1) * size * size
+    return [*(float(t * t * chance) for t in best), chance]
 
 
-def _slope_at_zero(deviance: _Deviance, t: FloatArray) -> FloatArray:
-    """Return which way the deviance goes as each t that is all but 0 grows."""
-    slopes = np.zeros_like(t)
+def _grown_from_zero(deviance: _Deviance, t: FloatArray) -> FloatArray:
+    """Return each t that is all but 0 made larger where the deviance falls on the way."""
+    grown = t.copy()
     for place in np.flatnonzero(t < _FIRST):
-        grown = t.copy()
-        grown[place] = 10.0 * _FIRST
-        slopes[place] = deviance(grown)[1][place]
-    return slopes
+        trial = t.copy()
+        trial[place] = _FIRST
+        if deviance.at(trial)[1][place] < 0.0:
+            grown[place] = 10.0 * _FIRST
+    return grown
 
 
-def _start(
-    y: FloatArray, levels: Sequence[NDArray[np.intp]], names: Sequence[str]
-) -> FloatArray:
+def _start(y: FloatArray, effects: Sequence[Effect]) -> FloatArray:
     """Return where the search begins, by expectations of quadratic forms.
 
     Raises:
         ReliabilityError: where effects are not told apart.
     """
+    levels, names = [e.levels for e in effects], [e.name for e in effects]
     n, m = len(y), len(levels)
     matrix, right = np.empty((m + 1, m + 1)), np.empty(m + 1)
     counts = [np.bincount(own).astype(np.float64) for own in levels]
     for i, a in enumerate(levels):
         for j, b in enumerate(levels[: i + 1]):
-            table = _table(a, b) - np.outer(counts[i], counts[j]) / n
-            matrix[i, j] = matrix[j, i] = float((table**2).sum())
+            # |Z_a'Q Z_b|², Q taking the mean off, over the pairs of levels that there are
+            both, times = np.unique(a * len(counts[j]) + b, return_counts=True)
+            row, column = np.divmod(both, len(counts[j]))
+            product = counts[i][row] * counts[j][column]
+            squares = float((times.astype(np.float64) ** 2 - 2.0 / n * times * product).sum())
+            squares += float((counts[i] ** 2).sum() * (counts[j] ** 2).sum()) / n**2
+            matrix[i, j] = matrix[j, i] = squares
         matrix[i, m] = matrix[m, i] = n - float((counts[i] ** 2).sum()) / n
-        right[i] = float((_sums(a, y[:, None]) ** 2).sum())
+        right[i] = float((np.bincount(a, weights=y) ** 2).sum())
     matrix[m, m], right[m] = n - 1, float(y @ y)
     size = np.sqrt(np.diagonal(matrix))
     if size.min() > 0.0:
@@ -212,17 +254,3 @@ def _start(
     found = np.linalg.solve(matrix, right)
     ratios = np.maximum(found[:m], 0.0) / max(float(found[m]), 1e-2)
     return np.clip(np.sqrt(ratios), 0.1, 10.0)
-
-
-def _sums(levels: NDArray[np.intp], columns: FloatArray) -> FloatArray:
-    """Return the sums of columns over each level, shape (levels, columns)."""
-    sums = np.zeros((int(levels.max()) + 1, columns.shape[1]))
-    np.add.at(sums, levels, columns)
-    return sums
-
-
-def _table(a: NDArray[np.intp], b: NDArray[np.intp]) -> FloatArray:
-    """Return how many observations have each level of one effect with each of another."""
-    rows, columns = int(a.max()) + 1, int(b.max()) + 1
-    flat = np.bincount(a * columns + b, minlength=rows * columns)
-    return flat.reshape(rows, columns).astype(np.float64)
