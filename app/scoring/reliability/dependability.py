@@ -63,9 +63,7 @@ class DecisionStudy:
         """
         v, both = self.components.variance, exercises * attempts
         error = (
-            v(STUDENT, EXERCISE) / exercises
-            + v(STUDENT, OCCASION) / attempts
-            + v(RESIDUAL) / both
+            v(STUDENT, EXERCISE) / exercises + v(STUDENT, OCCASION) / attempts + v(RESIDUAL) / both
         )
         if absolute:
             error += v(EXERCISE) / exercises + v(OCCASION) / attempts + v(EXERCISE, OCCASION) / both

@@ -156,9 +156,7 @@ def _columns(
     return columns, np.concatenate(own)
 
 
-def reml(
-    points: FloatArray, students: NDArray[np.intp], effects: Sequence[Effect]
-) -> list[float]:
+def reml(points: FloatArray, students: NDArray[np.intp], effects: Sequence[Effect]) -> list[float]:
     """Return the variance of each effect and, at last, of what is left.
 
     Args:
