@@ -10,6 +10,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.exercise_bands import Name, bands
+from app.commands.exercise_mark import mark
 from app.commands.reader_language import template
 from app.commands.shown import Each
 from app.core.messages import joined, sentence, sentence_of
@@ -19,12 +20,13 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
 
-app = Commands(help="Exercises: list, new, validate, bands, pack, unpack, trial.")
+app = Commands(help="Exercises: list, new, validate, bands, mark, pack, unpack, trial.")
 
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 
 
 app.command()(bands)
+app.command()(mark)
 
 RANK = 190
 

@@ -10,6 +10,7 @@ from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
 from app.commands.reader_language import template
+from app.commands.results_reliability import reliability
 from app.commands.shown import Each
 from app.core.messages import Sentence, counted, joined, sentence
 
@@ -38,10 +39,11 @@ RANK = 110
 
 
 def register(app: typer.Typer) -> None:
-    """Add `results board`, `results curve` and `results export`."""
+    """Add `results board`, `curve`, `reliability` and `export`."""
     results = Commands(help="Results of students and groups.")
     results.command("board")(board)
     results.command("curve")(curve)
+    results.command("reliability")(reliability)
     results.command("export")(export)
     app.add_typer(results, name="results")
 
@@ -56,7 +58,7 @@ def board(
     from app.exchange.results import board_rows
 
     instructor()
-    found, _, _ = _board(course, group, folder)
+    found, _, _ = board_at(course, group, folder)
     rows = board_rows(found)
     lines = [
         joined("", (f"{row['pseudonym']:20} {row['exercise']:24} ", _cell(row))) for row in rows
@@ -76,7 +78,7 @@ def curve(
 
     instructor()
     person = People().find(pseudonym)
-    found, _, _ = _board(course, "", folder)
+    found, _, _ = board_at(course, "", folder)
     points = found.curve(person.key, exercise)
     facts = {
         "pseudonym": person.pseudonym,
@@ -135,7 +137,7 @@ def export(
     if student and form != PDF:
         raise typer.BadParameter(sentence("--student is for pdf; the tables hold everybody"))
     instructor()
-    found, attempts, people = _board(course, group, folder)
+    found, attempts, people = board_at(course, group, folder)
     known = {person.key: person for person in people.everybody(names)}
     if course or group:
         shown = {person.key for person in found.students}
@@ -178,7 +180,7 @@ def _write_report(results: "Results", out: Path, student: str, course: str, grou
     )
 
 
-def _board(
+def board_at(
     course: str, group: str, folder: Path | None
 ) -> tuple["ProgressBoard", list["Indexed"], "People"]:
     """Return board, attempts and people, as the instructor sees them."""
@@ -211,5 +213,8 @@ def _cell(row: dict[str, Any]) -> Sentence:
             attempts=counted("{n} attempt", "{n} attempts", row["attempts"]),
             days=row["since_s"] / 86400.0,
         )
+        if row["near_mark"]:
+            near = sentence(", within the error of measurement of the mark")
+            points = joined("", (points, near))
     others = sentence(" ({others} not counted)", others=row["others"]) if row["others"] else ""
     return joined("", (points, others))

@@ -6,8 +6,9 @@ version of the exercise. What scripts do sets none: they are `scripts, not peopl
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -42,3 +43,16 @@ class SetMark(Strict):
     standard_error: Annotated[float, Field(ge=0.0, le=100.0)]
     people: Annotated[int, Field(ge=1)]
     score_error: Annotated[float, Field(ge=0.0, le=100.0)] | None = None
+
+
+def is_near_mark(score: Mapping[str, Any]) -> bool:
+    """Return whether a stored score lies within the error of measurement of its pass mark.
+
+    Args:
+        score: as `scoring.result.Score.document` writes it.
+    """
+    rules = score.get("rules") or {}
+    error, total = (rules.get("mark") or {}).get("score_error"), score.get("total")
+    if error is None or total is None:
+        return False
+    return bool(abs(float(total) - float(rules["pass_mark"])) <= float(error))

@@ -63,8 +63,8 @@ class ScoreRules(Strict):
         if self.mark is not None and self.mark.points != self.pass_mark:
             raise ValueError(
                 sentence(
-                    "mark: people set {points:g} and pass_mark is {pass_mark:g}: leave mark out, or "
-                    "set both again by `acus exercise mark`",
+                    "mark: people set {points:g} and pass_mark is {pass_mark:g}: leave mark out, "
+                    "or set both again by `acus exercise mark`",
                     points=self.mark.points,
                     pass_mark=self.pass_mark,
                 )

@@ -90,7 +90,8 @@ def borderline(
     if len(x) < LEAST_RATED:
         raise ReliabilityError(
             sentence(
-                "{attempts} rated attempts: borderline regression needs {least} at least; rate more",
+                "{attempts} rated attempts: borderline regression needs {least} at least; "
+                "rate more",
                 attempts=len(x),
                 least=LEAST_RATED,
             )

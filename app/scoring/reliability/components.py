@@ -7,8 +7,8 @@ interactions: they are in what is left.
 
 Where every cell has points the components are those of the expected mean squares (closed form; an
 estimate below 0 counts as 0 and is named). Where cells are missing they maximise the restricted
-likelihood (`reml`). An occasion is the first, second, third ... of a student's attempts at an
-exercise, so that what all learn from one to the next is the occasion's.
+likelihood (`reml`). An occasion is the first, second, third ... of the attempts that are taken of a
+student at an exercise, so that what all learn from one to the next is the occasion's.
 """
 
 from __future__ import annotations
@@ -145,8 +145,11 @@ def variance_components(cube: ScoreCube) -> VarianceComponents:
         estimator = Estimator.ANOVA
     else:
         estimates, estimator = _restricted(values, facets), Estimator.REML
+    students, exercises, occasions = (int(count) for count in values.shape)
     return VarianceComponents(
-        *(int(count) for count in values.shape),
+        students=students,
+        exercises=exercises,
+        occasions=occasions,
         attempts=int(np.isfinite(values).sum()),
         estimator=estimator,
         variances=MappingProxyType({name: max(0.0, v) for name, v in estimates.items()}),

@@ -8,8 +8,9 @@ them W, between columns J and of the residual E, of n students by k columns:
     2,1 = (B - E) / (B + (k - 1) E + k (J - E) / n)        columns drawn from many
     3,1 = (B - E) / (B + (k - 1) E)                        these columns and no others
 
-and 1,k 2,k 3,k of the mean of the k columns. Intervals are theirs; that of 2,1 takes Satterthwaite's
-degrees of freedom. No formula here divides by W or E, so that columns that agree exactly give 1.
+and 1,k 2,k 3,k of the mean of the k columns. Intervals are theirs; that of 2,1 takes
+Satterthwaite's degrees of freedom. No formula here divides by W or E, so that columns that agree
+exactly give 1.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ LEAST: Final = -100.0
 """Agreement of means has no lower end; what is below this says no more."""
 
 _LEAST_DF: Final = 0.5
-"""Satterthwaite's degrees of freedom come near 0 where everything cancels; F has no quantile there."""
+"""Satterthwaite's degrees of freedom come near 0 where all cancels; F has no quantile there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +82,8 @@ class MeanSquares:
             points: shape (students, columns), complete.
 
         Raises:
-            ReliabilityError: under 2 students or columns, where a cell is missing, or where students
-                do not differ at all.
+            ReliabilityError: under 2 students or columns, where a cell is missing, or where
+                students do not differ at all.
         """
         points = checked_table(points)
         n, k = points.shape
