@@ -184,19 +184,18 @@ def _decision_lines(result: "CourseReliability") -> list[str | Each]:
     if study is not None and study.sees_attempts:
         lines += [
             template(
-                "{decision.attempts_for_g:?G 0.8 by {decision.attempts_for_g} attempts at each of "
-                "these exercises|G 0.8 by no number of attempts at these exercises}"
-                "{decision.attempts_for_phi:?; Phi 0.8 by {decision.attempts_for_phi}"
-                "|; Phi 0.8 by none}"
+                "G 0.8 {decision.attempts_for_g:?by {decision.attempts_for_g:#1 attempt|# attempts}"
+                "|by no number of attempts} at each of these exercises, Phi 0.8 "
+                "{decision.attempts_for_phi:?by {decision.attempts_for_phi}|by none}"
             )
         ]
     if study is not None and study.sees_exercises:
         lines += [
             template(
-                "{decision.exercises_for_g:?G 0.8 by {decision.exercises_for_g} such exercises with "
-                "{decision.attempts} attempts each|G 0.8 by no number of such exercises}"
-                "{decision.exercises_for_phi:?; Phi 0.8 by {decision.exercises_for_phi}"
-                "|; Phi 0.8 by none}"
+                "with {decision.attempts:#1 attempt|# attempts} each, G 0.8 "
+                "{decision.exercises_for_g:?by {decision.exercises_for_g} such exercises"
+                "|by no number of exercises}, Phi 0.8 "
+                "{decision.exercises_for_phi:?by {decision.exercises_for_phi}|by none}"
             )
         ]
     return lines

@@ -209,7 +209,8 @@ def _heading_problems(
     for place, name in enumerate(columns):
         if not name or name in columns[:place]:
             yield sentence(
-                "{file}, row 1: the heading has {column!r} twice, or no name: name each column once",
+                "{file}, row 1: the heading has {column!r} twice, or no name: name each column "
+                "once",
                 file=file,
                 column=name,
             )

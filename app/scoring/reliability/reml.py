@@ -31,6 +31,9 @@ from app.scoring.errors import ReliabilityError
 _LARGEST: Final = 1e4
 """Of a t: an effect of such a standard deviation, in that of chance, leaves nothing to chance."""
 
+_NO_CHANCE: Final = 1e-6
+"""Least share of the variance that is left to chance: less is rounding."""
+
 _ALIKE: Final = 1e-9
 """Least eigenvalue of the equations, scaled to a diagonal of 1, of effects that are told apart."""
 
@@ -189,14 +192,15 @@ def reml(points: FloatArray, students: NDArray[np.intp], effects: Sequence[Effec
         if (grown == best).all():
             break
         best = grown
-    if best.max() >= 0.99 * _LARGEST:
+    chance = deviance.at(best)[2] / (len(y) - 1)
+    if best.max() >= 0.99 * _LARGEST or chance < _NO_CHANCE:
         raise ReliabilityError(
             sentence(
                 "the points repeat exactly and leave nothing to chance, with cells missing: take "
                 "in more attempts, or a set in which every student has every exercise"
             )
         )
-    chance = deviance.at(best)[2] / (len(y) - 1) * size * size
+    chance *= size * size
     return [*(float(t * t * chance) for t in best), chance]
 
 
@@ -234,19 +238,17 @@ def _start(y: FloatArray, effects: Sequence[Effect]) -> FloatArray:
         right[i] = float((np.bincount(a, weights=y) ** 2).sum())
     matrix[m, m], right[m] = n - 1, float(y @ y)
     size = np.sqrt(np.diagonal(matrix))
-    if size.min() > 0.0:
-        scaled = matrix / np.outer(size, size)
-        values, vectors = np.linalg.eigh(scaled)
-    if size.min() <= 0.0 or values[0] < _ALIKE:
-        worst = np.abs(vectors[:, 0]) if size.min() > 0.0 else -size
-        mixed = sorted(np.argsort(-worst)[:2])
+    scaled = matrix / np.maximum(np.outer(size, size), 1e-300)
+    if size.min() <= 0.0 or np.linalg.eigvalsh(scaled)[0] < _ALIKE:
+        closest = np.abs(np.tril(scaled, -1)).round(9)
+        other, effect = np.unravel_index(int(closest.argmax()), closest.shape)
         raise ReliabilityError(
             sentence(
                 "too many cells are missing: these {attempts} attempts do not tell {effect} from "
                 "{other}; take in students who have the same exercises, twice at least",
                 attempts=n,
-                effect=[*names, "residual"][mixed[0]],
-                other=[*names, "residual"][mixed[1]],
+                effect=names[effect],
+                other=[*names, "residual"][other],
             )
         )
     found = np.linalg.solve(matrix, right)
