@@ -22,7 +22,7 @@ from app.scoring.tolerance import Bands
 KEPT_SHARE: Final = 80.0
 """So many of a hundred attempts of the experienced are an expert's."""
 
-_DRAWS: Final = 2000
+_DRAWS: Final = 1000
 """Times that people are drawn anew for the standard error of a mark."""
 
 _SEED: Final = 1982

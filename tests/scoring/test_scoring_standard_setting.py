@@ -80,10 +80,10 @@ def test_groups_part_half_way_between_two_normal_distributions_of_one_width() ->
 
 
 def test_the_error_of_a_mark_is_how_far_marks_of_other_people_lie_apart() -> None:
-    """Marks of twenty schools of 15 and 15 people, whose spread the mean error has to tell."""
+    """Marks of sixteen schools of 15 and 15 people, whose spread the mean error has to tell."""
     rng = np.random.default_rng(30)
     marks = []
-    for _ in range(20):
+    for _ in range(16):
         groups = [
             (middle + rng.normal(0, 6, (15, 1)) + rng.normal(0, 4, (15, 3))).tolist()
             for middle in (80.0, 65.0)
