@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
 
-app = Commands(help="Exercises: list, new, validate, bands, mark, pack, unpack, trial.")
+app = Commands(help="Exercises: list, new, validate, bands, mark, pack, trial.")
 
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 

@@ -51,7 +51,7 @@ def register(app: typer.Typer) -> None:
 def board(
     course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
 ) -> Answer:
-    """Show best, last, trend and time since, by exercise (instructor).
+    """Show best, last, trend, time since, by exercise (instructor).
 
     Only comparable attempts count, none of a scripted trainee or an emulated board.
     """
@@ -73,7 +73,7 @@ def curve(
     course: CourseOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Show a student's points with best and moving median (instructor)."""
+    """Show a student's points, best and moving median (instructor)."""
     from app.session.people import People
 
     instructor()
@@ -120,7 +120,7 @@ def export(
     ] = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Write results as a table, grades, JSON or a report (instructor).
+    """Write results as table, grades, JSON or report (instructor).
 
     tidy: a row for each metric of each attempt. wide: a row for each student. moodle: best points
     by username, as Moodle's gradebook imports them. json: all of it. pdf: report of the group, or

@@ -83,7 +83,6 @@ def test_a_mark_is_versioned_with_its_exercise(
     path = sheet(tmp_path, SHEET)
     first = acus("--angoff", path, "--title", "Ours", "--json")["kept"]
     own = sheet(tmp_path, "judge,ours\nA,70\nB,71\nC,72\n")
-    monkeypatch.setattr(EXERCISE, "__dict__", EXERCISE.__dict__)
     words = ["acus", "exercise", "mark", first["id"], "--angoff", str(own), "--save", "--json"]
     monkeypatch.setattr("sys.argv", words)
     with pytest.raises(SystemExit):
@@ -128,7 +127,7 @@ def test_scripts_set_no_mark_by_whatever_way(acus: Callable[..., Any], tmp_path:
     for words in (("--experienced", "expert"), ("--angoff", expert)):
         assert "scripts, not people, and scripts set no mark" in acus(*words, code=2)
     scripted = attempt("x", EXERCISE.id, 1, 90.0, version=EXERCISE.version, scripted="expert")
-    with pytest.raises(ScriptsSetNoMarkError, match="s.csv, row 2: .* scripts, not people"):
+    with pytest.raises(ScriptsSetNoMarkError, match=r"s\.csv, row 2: .* scripts, not people"):
         rated_attempts([Rating(scripted.id, 4.0, "s.csv, row 2")], EXERCISE, [scripted], {})
     with pytest.raises(ScriptsSetNoMarkError):
         refuse_scripts(["Novice"])
@@ -175,11 +174,8 @@ def test_attempts_that_do_not_count_or_are_of_another_version_set_no_mark() -> N
 
 def test_several_ratings_of_an_attempt_are_one_by_their_mean() -> None:
     some = [attempt("p", EXERCISE.id, n, 60.0 + n, version=EXERCISE.version) for n in range(2)]
-    ratings = [
-        Rating(some[0].id, 2.0, ""),
-        Rating(some[0].id, 4.0, ""),
-        Rating(some[1].id, 5.0, ""),
-    ]
+    given = ((0, 2.0), (0, 4.0), (1, 5.0))
+    ratings = [Rating(some[place].id, rating, "") for place, rating in given]
     rated = rated_attempts(ratings, EXERCISE, some, {})
     assert (rated.ratings, rated.points, rated.people) == ((3.0, 5.0), (60.0, 61.0), 1)
 

@@ -137,7 +137,7 @@ def test_too_little_is_refused_in_one_line_that_says_what_to_do(
 
 
 def test_whose_best_is_within_the_error_of_a_single_score_is_named() -> None:
-    """Two who repeat by ± 4: the error is √(2·8/2) = 2.83; 62 is near 60, and 70 is not."""
+    """Two who repeat by ± 4: the error is √8 = 2.83; 62 is near 60, and 70 is not."""
     points = {("p0", "ribs"): [58.0, 62.0], ("p1", "ribs"): [66.0, 70.0]}
     (ribs,) = course_reliability(board(attempts(points))).exercises
     assert ribs.score_error == pytest.approx(np.sqrt(8.0))
