@@ -13,7 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.messages import sentence
+from app.core.messages import sentence, sentence_of
 from app.scoring.errors import ReliabilityError
 from app.scoring.reliability import (
     Agreement,
@@ -195,7 +195,7 @@ def _components(cube: ScoreCube, notes: list[str]) -> VarianceComponents | None:
     try:
         components = variance_components(cube)
     except ReliabilityError as error:
-        notes.append(str(error))
+        notes.append(sentence_of(error))
         return None
     if components.exercises == 1:
         notes.append(
@@ -243,7 +243,7 @@ def _across(
     try:
         return intraclass(means), item_statistics(means), complete
     except ReliabilityError as error:
-        notes.append(str(error))
+        notes.append(sentence_of(error))
         return (), item_statistics(means), complete
 
 

@@ -154,7 +154,7 @@ def test_the_spread_within_students_is_the_residual_of_rs_linear_model() -> None
     table = R["within"]
     own = [np.atleast_1d(points).tolist() for points in table["points"].values()]
     assert within_student_sd(own) == pytest.approx((table["sd"], table["freedom"]), rel=1e-6)
-    with pytest.raises(ReliabilityError, match="1 with 2 attempts or more"):
+    with pytest.raises(ReliabilityError, match="with 2 attempts or more: 1"):
         within_student_sd([[50.0, 60.0], [70.0]])
 
 

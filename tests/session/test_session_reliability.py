@@ -122,8 +122,8 @@ def test_one_attempt_each_says_what_more_would_tell() -> None:
 @pytest.mark.parametrize(
     ("points", "message"),
     [
-        ({}, "0 with points"),
-        ({("p0", "ribs"): [50.0, 60.0]}, "1 with points: reliability needs 2 students"),
+        ({}, "students with points: 0"),
+        ({("p0", "ribs"): [50.0, 60.0]}, "students with points: 1; reliability needs 2 students"),
         ({("p0", "ribs"): [50.0], ("p1", "kidney"): [60.0]}, "points once only"),
         ({("p0", "ribs"): [50.0] * 3, ("p1", "ribs"): [50.0] * 3}, "nothing varies"),
     ],
@@ -186,5 +186,5 @@ def test_the_command_prints_a_table_and_the_same_as_json(
     assert "student x exercise" in table
     assert "ICC(2,1)" in table
     assert all(name in table for name in EXERCISES)
-    assert "0 with points" in acus("results", "reliability", "--group", "none", code=2)
+    assert "students with points: 0" in acus("results", "reliability", "--group", "none", code=2)
     assert len(People().everybody()) == 8

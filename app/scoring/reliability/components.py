@@ -72,7 +72,8 @@ class ScoreCube:
         if students < 2:
             raise ReliabilityError(
                 sentence(
-                    "{students} with points: reliability needs 2 students at least; take in more",
+                    "students with points: {students}; reliability needs 2 students at least: "
+                    "take in more",
                     students=students,
                 )
             )

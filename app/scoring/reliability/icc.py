@@ -119,7 +119,8 @@ def checked_table(points: FloatArray) -> FloatArray:
     if points.ndim != 2 or points.shape[0] < 2:
         raise ReliabilityError(
             sentence(
-                "{students} with points: reliability needs 2 students at least; take in more",
+                "students with points: {students}; reliability needs 2 students at least: "
+                "take in more",
                 students=points.shape[0] if points.ndim == 2 else 0,
             )
         )

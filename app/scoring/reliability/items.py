@@ -71,8 +71,8 @@ def within_student_sd(attempts: Sequence[Sequence[float]]) -> tuple[float, int]:
     if len(several) < 2:
         raise ReliabilityError(
             sentence(
-                "{students} with 2 attempts or more: the standard error of a score needs 2 such "
-                "students at least; let them repeat the exercise",
+                "students with 2 attempts or more: {students}; the standard error of a score needs "
+                "2 such students at least: let them repeat the exercise",
                 students=len(several),
             )
         )
