@@ -10,15 +10,12 @@ from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
 from app.commands.reader_language import template
-from app.commands.results_reliability import reliability
+from app.commands.results_reliability import board_at, reliability
 from app.commands.shown import Each
 from app.core.messages import Sentence, counted, joined, sentence
 
 if TYPE_CHECKING:
     from app.exchange.results import Results
-    from app.session.board import ProgressBoard
-    from app.session.index import Indexed
-    from app.session.people import People
 
 CourseOption = Annotated[
     str,
@@ -178,24 +175,6 @@ def _write_report(results: "Results", out: Path, student: str, course: str, grou
             else student_report(results, person, titles)
         ),
     )
-
-
-def board_at(
-    course: str, group: str, folder: Path | None
-) -> tuple["ProgressBoard", list["Indexed"], "People"]:
-    """Return board, attempts and people, as the instructor sees them."""
-    from app.commands.calibrate_parts import with_progress
-    from app.session.board import board_of
-    from app.session.course import find_course
-    from app.session.people import People
-    from app.session.store import records_folder
-
-    people, chosen = People(), find_course(course) if course else None
-    place = records_folder(folder)
-    found, attempts = with_progress(
-        lambda progress: board_of(place, people, chosen, group, progress=progress)
-    )
-    return found, attempts, people
 
 
 def _cell(row: dict[str, Any]) -> Sentence:

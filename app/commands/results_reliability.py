@@ -12,6 +12,9 @@ from app.commands.reader_language import template
 from app.commands.shown import Each, Shown
 
 if TYPE_CHECKING:
+    from app.session.board import ProgressBoard
+    from app.session.index import Indexed
+    from app.session.people import People
     from app.session.reliability import CourseReliability
 
 SOURCES = {
@@ -46,13 +49,30 @@ def reliability(
     Variance by source, G and Phi with how many attempts reach 0.8, agreement, and of each exercise
     difficulty, discrimination and the standard error of a score.
     """
-    from app.commands.results import board_at
     from app.session.reliability import course_reliability
 
     instructor()
     board, _, _ = board_at(course, group, folder)
     result = course_reliability(board, last)
     return Answer(_facts(result, course, last), shown=_shown(result))
+
+
+def board_at(
+    course: str, group: str, folder: Path | None
+) -> tuple["ProgressBoard", list["Indexed"], "People"]:
+    """Return board, attempts and people, as the instructor sees them."""
+    from app.commands.calibrate_parts import with_progress
+    from app.session.board import board_of
+    from app.session.course import find_course
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    people, chosen = People(), find_course(course) if course else None
+    place = records_folder(folder)
+    found, attempts = with_progress(
+        lambda progress: board_of(place, people, chosen, group, progress=progress)
+    )
+    return found, attempts, people
 
 
 def _facts(result: "CourseReliability", course: str, last: int) -> dict[str, Any]:

@@ -37,7 +37,7 @@ class AngoffSheet:
 
 
 @dataclass(frozen=True, slots=True)
-class _Row:
+class _SheetRow:
     """One row: file and number of its line for messages, and its cells by column."""
 
     file: str
@@ -147,7 +147,7 @@ def read_ratings(path: Path) -> list[Rating]:
 
 def _table(
     path: Path, needed: Collection[str], optional: Collection[str] | None = None
-) -> tuple[list[str], list[_Row], bool]:
+) -> tuple[list[str], list[_SheetRow], bool]:
     """Return columns and rows of a sheet, and whether a comma in it is a decimal one.
 
     Args:
@@ -192,7 +192,7 @@ def _table(
                     columns=len(columns),
                 )
             )
-        rows.append(_Row(path.name, line, dict(zip(columns, cells, strict=False))))
+        rows.append(_SheetRow(path.name, line, dict(zip(columns, cells, strict=False))))
     if not rows:
         raise MarkSheetError(sentence("{file} has a heading and no rows: fill it", file=path.name))
     return columns, rows, separator != ","

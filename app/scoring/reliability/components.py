@@ -26,7 +26,7 @@ from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.scoring.errors import ReliabilityError
 from app.scoring.reliability.icc import NO_VARIANCE
-from app.scoring.reliability.reml import Effect, reml
+from app.scoring.reliability.reml import RandomEffect, reml
 
 STUDENT: Final = "student"
 EXERCISE: Final = "exercise"
@@ -216,6 +216,6 @@ def _restricted(values: FloatArray, facets: list[str]) -> dict[str, float]:
     for own in _effects(facets)[:-1]:
         columns = cells[:, [FACETS.index(facet) for facet in own]]
         levels = np.unique(columns, axis=0, return_inverse=True)[1].reshape(-1)
-        effects.append(Effect(_name(own, facets), levels, nested=STUDENT in own))
+        effects.append(RandomEffect(_name(own, facets), levels, nested=STUDENT in own))
     estimates = reml(points, cells[:, 0], effects)
     return dict(zip([*(effect.name for effect in effects), RESIDUAL], estimates, strict=True))

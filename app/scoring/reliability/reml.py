@@ -42,7 +42,7 @@ _FIRST: Final = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Effect:
+class RandomEffect:
     """One random effect.
 
     Attributes:
@@ -66,7 +66,7 @@ class _Deviance:
     """
 
     def __init__(
-        self, y: FloatArray, students: NDArray[np.intp], effects: Sequence[Effect]
+        self, y: FloatArray, students: NDArray[np.intp], effects: Sequence[RandomEffect]
     ) -> None:
         self.n = len(y)
         y_one = np.column_stack([y, np.ones(self.n)])
@@ -137,7 +137,7 @@ class _Deviance:
 
 
 def _columns(
-    effects: Sequence[Effect], students: NDArray[np.intp] | None = None
+    effects: Sequence[RandomEffect], students: NDArray[np.intp] | None = None
 ) -> tuple[list[NDArray[np.intp]], NDArray[np.intp]]:
     """Return the column of each observation in each effect, and the effect of each column.
 
@@ -159,7 +159,9 @@ def _columns(
     return columns, np.concatenate(own)
 
 
-def reml(points: FloatArray, students: NDArray[np.intp], effects: Sequence[Effect]) -> list[float]:
+def reml(
+    points: FloatArray, students: NDArray[np.intp], effects: Sequence[RandomEffect]
+) -> list[float]:
     """Return the variance of each effect and, at last, of what is left.
 
     Args:
@@ -215,7 +217,7 @@ def _grown_from_zero(deviance: _Deviance, t: FloatArray) -> FloatArray:
     return grown
 
 
-def _start(y: FloatArray, effects: Sequence[Effect]) -> FloatArray:
+def _start(y: FloatArray, effects: Sequence[RandomEffect]) -> FloatArray:
     """Return where the search begins, by expectations of quadratic forms.
 
     Raises:
