@@ -378,6 +378,7 @@ def trial(
         Each("skills", row),
         template("all skills in their order: {ordered_seeds:.0%} of the seeds"),
         template("neighbouring skills ordered right, any seed with any: {ordered_share:.0%}"),
+        template("scripts, not people: what they score sets no pass mark"),
     )
     return Answer(facts, shown=shown)
 

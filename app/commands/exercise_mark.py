@@ -55,6 +55,7 @@ def mark(
     """
     from app.exercises.library import load_exercise
     from app.scoring.pass_line import pass_lines
+    from app.scoring.published_pass import published_shares
     from app.session.index import Index
     from app.session.people import People
     from app.session.people_marks import points_of_people, set_mark, with_mark
@@ -92,6 +93,10 @@ def mark(
         "judges_agreement": judged.get("agreement"),
         "people_here": len(newest),
         "people_reach_it": sum(total >= own.points for total in newest),
+        "published": [
+            {"hands": one.hands, "share": one.share}
+            for one in published_shares(chosen.tolerances, with_mark(chosen, own).rules)
+        ],
         "pass_lines": pass_lines(chosen.tolerances),
         "kept": None if kept is None else {"id": kept.id, "version": kept.version},
     }
@@ -116,6 +121,10 @@ SHOWN: Shown = (
         "needed}"
     ),
     template("{people_here:?{people_reach_it} of {people_here} people here reach it now|}"),
+    Each(
+        "published",
+        template("published hands, {hands}: {share:.0%} would pass, were all else perfect"),
+    ),
     Each("pass_lines", template("{metric} passes to {pass:g}: {words}")),
     template("{kept:?kept: {kept.id}, version {kept.version}|not kept: --save or --title}"),
 )

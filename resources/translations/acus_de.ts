@@ -968,6 +968,10 @@
             <translation type="unfinished">benachbarte Können richtig geordnet, jeder Startwert mit jedem: {ordered_share:.0%}</translation>
         </message>
         <message>
+            <source>scripts, not people: what they score sets no pass mark</source>
+            <translation type="unfinished">Skripte, keine Menschen: Was sie erreichen, setzt keine Bestehensgrenze</translation>
+        </message>
+        <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} berührt, {picked} gewählt  {rig}  {trusted:?gut|passt nicht}</translation>
         </message>
@@ -9575,6 +9579,10 @@ Anteil</translation>
 [s]</translation>
         </message>
         <message>
+            <source>What scripted skills would score (scripts, not people)</source>
+            <translation type="unfinished">Was die Fähigkeiten aus Skripten erreichen würden (Skripte, keine Menschen)</translation>
+        </message>
+        <message>
             <source>bone</source>
             <translation type="unfinished">Knochen</translation>
         </message>
@@ -9617,10 +9625,6 @@ Anteil</translation>
         <message>
             <source>computed by</source>
             <translation type="unfinished">berechnet mit</translation>
-        </message>
-        <message>
-            <source>What scripted skills would score</source>
-            <translation type="unfinished">Was Skripte verschiedenen Könnens erreichen würden</translation>
         </message>
         <message>
             <source>pass</source>
@@ -15480,6 +15484,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{n} von {m}</translation>
         </message>
         <message>
+            <source>≈: within the error of measurement of the mark</source>
+            <translation type="unfinished">≈: im Messfehler der Bestehensgrenze</translation>
+        </message>
+        <message>
             <source>Best</source>
             <translation type="unfinished">Bestwert</translation>
         </message>
@@ -20009,6 +20017,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{people_here:?{people_reach_it} of {people_here} people here reach it now|}</source>
             <translation type="unfinished">{people_here:?{people_reach_it} von {people_here} Personen hier erreichen sie jetzt|}</translation>
+        </message>
+        <message>
+            <source>published hands, {hands}: {share:.0%} would pass, were all else perfect</source>
+            <translation type="unfinished">veröffentlichte Hände, {hands}: {share:.0%} würden bestehen, wäre alles andere vollkommen</translation>
         </message>
         <message>
             <source>{metric} passes to {pass:g}: {words}</source>

@@ -968,6 +968,10 @@
             <translation type="unfinished">niveaux voisins bien ordonnés, toute graine avec toute autre : {ordered_share:.0%}</translation>
         </message>
         <message>
+            <source>scripts, not people: what they score sets no pass mark</source>
+            <translation type="unfinished">des scripts, pas des personnes : leurs scores ne fixent aucun seuil de réussite</translation>
+        </message>
+        <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} touchés, {picked} désignés  {rig}  {trusted:?bon|ne convient pas}</translation>
         </message>
@@ -9575,6 +9579,10 @@ part</translation>
 [s]</translation>
         </message>
         <message>
+            <source>What scripted skills would score (scripts, not people)</source>
+            <translation type="unfinished">Ce qu’obtiendraient les habiletés scriptées (des scripts, pas des personnes)</translation>
+        </message>
+        <message>
             <source>bone</source>
             <translation type="unfinished">os</translation>
         </message>
@@ -9617,10 +9625,6 @@ part</translation>
         <message>
             <source>computed by</source>
             <translation type="unfinished">calculé par</translation>
-        </message>
-        <message>
-            <source>What scripted skills would score</source>
-            <translation type="unfinished">Ce qu’obtiendraient des scripts d’habileté différente</translation>
         </message>
         <message>
             <source>pass</source>
@@ -15480,6 +15484,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{n} sur {m}</translation>
         </message>
         <message>
+            <source>≈: within the error of measurement of the mark</source>
+            <translation type="unfinished">≈ : dans l’erreur de mesure du seuil</translation>
+        </message>
+        <message>
             <source>Best</source>
             <translation type="unfinished">Meilleur</translation>
         </message>
@@ -20009,6 +20017,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{people_here:?{people_reach_it} of {people_here} people here reach it now|}</source>
             <translation type="unfinished">{people_here:?{people_reach_it} personnes sur {people_here} ici l’atteignent maintenant|}</translation>
+        </message>
+        <message>
+            <source>published hands, {hands}: {share:.0%} would pass, were all else perfect</source>
+            <translation type="unfinished">mains publiées, {hands} : {share:.0%} réussiraient, si tout le reste était parfait</translation>
         </message>
         <message>
             <source>{metric} passes to {pass:g}: {words}</source>

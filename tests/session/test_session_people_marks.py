@@ -70,6 +70,8 @@ def test_judges_set_a_mark_that_a_new_exercise_keeps_with_how_it_was_set(
     assert facts["kept"] is None
     assert 3.0 < facts["score_error"] < 7.0  # drawn with 5
     assert any("14%" in line["words"] for line in facts["pass_lines"])
+    shares = {one["hands"]: one["share"] for one in facts["published"]}
+    assert 0.0 < shares["guided in patients"] < shares["freehand"] < shares["guided"] < 1.0
     kept = acus("--angoff", path, "--title", "Ours", "--json")["kept"]
     rules = load_exercise(kept["id"]).rules
     assert rules.mark is not None

@@ -278,6 +278,11 @@ def _block(
         passed = sum(board.cells[one.key, item.exercise].passed for one in board.students)
         words = tr("{n} of {m}", n=passed, m=len(board.students))
         sheet.text(MARGIN + _NAME + place * width, words, 9.0, DIM, bold=True)
+    if any(
+        board.cells[one.key, item.exercise].near_mark for one in board.students for item in items
+    ):
+        sheet.y += _ROW
+        sheet.text(MARGIN, tr("≈: within the error of measurement of the mark"), 9.0, DIM)
     sheet.y += 2.0 * _ROW
 
 
@@ -286,6 +291,7 @@ def _cell(cell: BoardCell) -> str:
     if cell.best is None or cell.last is None:
         return "–" if not cell.others else tr("– ({n} not counted)", n=cell.others)
     words = f"{cell.best:.0f} / {cell.last:.0f} ({cell.attempts})"
+    words = f"{words} ≈" if cell.near_mark else words
     return f"✔ {words}" if cell.passed else words
 
 
