@@ -34,6 +34,8 @@ def instructor(people: "People | None" = None) -> None:
     Raises:
         PeopleError: for a wrong password.
     """
+    from app.session.audit import INSTRUCTOR, act_as
+
     if people is None:
         from app.session.people import People
 
@@ -45,6 +47,7 @@ def instructor(people: "People | None" = None) -> None:
         given = secret(sentence("Instructor's password"))
     if unkept := people.check_instructor(given):
         typer.echo(f"acus: {local(unkept)}", err=True)
+    act_as(INSTRUCTOR)
 
 
 def secret(question: str, confirm: bool = False) -> str:

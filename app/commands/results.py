@@ -9,12 +9,13 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
-from app.commands.reader_language import template
+from app.commands.reader_language import local, template
 from app.commands.results_reliability import board_at, reliability
 from app.commands.shown import Each
 from app.core.messages import Sentence, counted, joined, sentence
 
 if TYPE_CHECKING:
+    from app.exchange.moodle import GradeRule
     from app.exchange.results import Results
 
 CourseOption = Annotated[
@@ -36,12 +37,13 @@ RANK = 110
 
 
 def register(app: typer.Typer) -> None:
-    """Add `results board`, `curve`, `reliability` and `export`."""
+    """Add `results board`, `curve`, `reliability`, `export` and `xapi`."""
     results = Commands(help="Results of students and groups.")
     results.command("board")(board)
     results.command("curve")(curve)
     results.command("reliability")(reliability)
     results.command("export")(export)
+    results.command("xapi")(xapi)
     app.add_typer(results, name="results")
 
 
@@ -115,16 +117,28 @@ def export(
         str,
         typer.Option("--student", help="pdf: of this one.", autocompletion=completion.students),
     ] = "",
+    identifier: Annotated[
+        str, typer.Option("--identifier", help="moodle: username, email or idnumber.")
+    ] = "",
+    grade: Annotated[
+        str, typer.Option("--grade", help="moodle, pdf: best, first, last, or mean:N of the last.")
+    ] = "",
+    feedback: Annotated[
+        bool, typer.Option("--feedback", help="moodle: a column of feedback too.")
+    ] = False,
+    place: Annotated[str, typer.Option("--place", help="pdf: where the course was.")] = "",
     folder: FolderOption = None,
 ) -> Answer:
     """Write results as table, grades, JSON or report (instructor).
 
-    tidy: a row for each metric of each attempt. wide: a row for each student. moodle: best points
-    by username, as Moodle's gradebook imports them. json: all of it. pdf: report of the group, or
-    of one student. Ctrl-C cancels; a file is written whole or not at all.
+    tidy: a row for each metric of each attempt. wide: a row for each student. moodle: grades as
+    Moodle's gradebook imports them. json: all of it. pdf: report of the group, or of one student.
+    Ctrl-C cancels; a file is written whole or not at all.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.exchange.results import Results, ResultsFormat, results_text, write_results
+    from app.exchange.moodle import GradeRule, MoodleChoice, chance_words
+    from app.exchange.results import ResultsFormat, results_text, write_results
+    from app.session.accounts import Account
 
     forms = [*(one.value for one in ResultsFormat), PDF]
     if form not in forms:
@@ -133,7 +147,103 @@ def export(
         )
     if student and form != PDF:
         raise typer.BadParameter(sentence("--student is for pdf; the tables hold everybody"))
+    if identifier and identifier not in list(Account):
+        raise typer.BadParameter(
+            sentence(
+                "{identifier}: Moodle knows students by username, email or idnumber",
+                identifier=identifier,
+            )
+        )
+    for_moodle = bool(identifier or feedback) and form != ResultsFormat.MOODLE
+    if for_moodle or (grade and form not in (ResultsFormat.MOODLE, PDF)):
+        raise typer.BadParameter(
+            sentence("--identifier and --feedback are for moodle, --grade for moodle and pdf")
+        )
+    rule = GradeRule.of(grade or "best")
     instructor()
+    results = _results(course, group, folder, names)
+    chance = ""
+    if form == PDF:
+        _write_report(results, out, student, course, group, rule, place)
+    else:
+        choice = MoodleChoice(Account(identifier or "username"), rule, feedback)
+        told = (ResultsFormat(form), semicolons)
+        text = with_progress(lambda progress: results_text(results, *told, progress, choice, local))
+        write_results(out, text)
+    if form == ResultsFormat.MOODLE or (form == PDF and not student):
+        chance = chance_words(results.board, rule)
+    shown_counts = template(
+        "{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}"
+    )
+    counts = {"attempts": len(results.attempts), "students": len(results.board.students)}
+    facts = {"files": [out], **counts, "chance": chance}
+    return Answer(facts, [chance] if chance else [], shown=shown_counts)
+
+
+def xapi(
+    home: Annotated[
+        str,
+        typer.Option("--home", help="Address that you own: ids begin with it, at every time."),
+    ],
+    out: Annotated[
+        Path | None, typer.Option("--out", help="File: .json an array, else one a line.")
+    ] = None,
+    queue: Annotated[
+        bool, typer.Option("--queue", help="Put what is new into the queue of what is to be sent.")
+    ] = False,
+    course: CourseOption = "",
+    group: GroupOption = "",
+    folder: FolderOption = None,
+) -> Answer:
+    """Write attempts as statements of the Experience API (instructor).
+
+    Students are accounts by pseudonym. The same attempt is the same statement, whenever it is
+    written. Void attempts, drills and what no person did are left out; in the queue they are taken
+    back.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.exchange.results import write_results
+    from app.exchange.xapi import (
+        checked_home,
+        statements,
+        statements_text,
+        voiding_statements,
+    )
+    from app.session.people import people_folder
+    from app.session.statement_queue import FOLDER, StatementQueue
+
+    checked_home(home)
+    if out is None and not queue:
+        raise typer.BadParameter(sentence("nothing to do: give --out FILE, --queue, or both"))
+    instructor()
+    results = _results(course, group, folder, names=False)
+    told = with_progress(lambda progress: statements(results, home, course, progress))
+    if out is not None:
+        write_results(out, statements_text(told, out.suffix.lower() == ".json"))
+    waiting = StatementQueue(people_folder() / FOLDER)
+    voided = waiting.take_back(voiding_statements(results, home)) if queue else 0
+    new = waiting.put(told) if queue else 0
+    facts = {
+        "files": [] if out is None else [out],
+        "statements": len(told),
+        "new": new,
+        "voided": voided,
+        "waiting": len(waiting.waiting()),
+    }
+    shown = (
+        template("{statements:#1 statement|# statements}{files:?, written to {files}|}"),
+        template("queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent"),
+    )
+    return Answer(facts, shown=shown)
+
+
+def _results(course: str, group: str, folder: Path | None, names: bool) -> "Results":
+    """Return the results of a course and a group, as they leave."""
+    from app.commands.reader_language import known as in_words
+    from app.exchange.results import Results
+    from app.exercises.library import library
+    from app.session.accounts import accounts_in
+
     found, attempts, people = board_at(course, group, folder)
     known = {person.key: person for person in people.everybody(names)}
     if course or group:
@@ -143,37 +253,41 @@ def export(
         exercises = {item.exercise for item in found.items}
         attempts = [one for one in attempts if one.exercise in exercises]
     listed = {key: person.name for key, person in known.items()} if names else {}
-    results = Results(found, attempts, known, people.remarks(), listed)
-    if form == PDF:
-        _write_report(results, out, student, course, group)
-    else:
-        text = with_progress(
-            lambda progress: results_text(results, ResultsFormat(form), semicolons, progress)
-        )
-        write_results(out, text)
-    shown_counts = template(
-        "{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}"
-    )
-    facts = {"files": [out], "attempts": len(attempts), "students": len(found.students)}
-    return Answer(facts, shown=shown_counts)
+    titles = {exercise.id: in_words(exercise.title) for exercise in library()}
+    told = (people.remarks(), listed, accounts_in(people.names()), titles)
+    return Results(found, attempts, known, *told)
 
 
-def _write_report(results: "Results", out: Path, student: str, course: str, group: str) -> None:
+def _write_report(
+    results: "Results",
+    out: Path,
+    student: str,
+    course: str,
+    group: str,
+    rule: "GradeRule",
+    place: str,
+) -> None:
     """Draw the report of the group, or of one student, and write it whole or not at all."""
-    from app.exercises.library import library
+    from app.commands.calibrate_parts import with_progress
+    from app.session.course import find_course
     from app.session.people import People
-    from app.views.people.results_report import group_report, student_report, write_report
+    from app.session.stations import NAME_SETTING
+    from app.views.people.group_report import ReportFacts, group_report
+    from app.views.people.results_report import student_report, write_report
 
-    person = People().find(student) if student else None
-    titles = {one.id: one.title for one in library()}
-    heading = " · ".join(filter(None, (course, group))) or "Acus"
-    write_report(
-        out,
-        lambda: (
-            group_report(results, titles, heading)
-            if person is None
-            else student_report(results, person, titles)
-        ),
+    people, titles = People(), results.titles
+    person = people.find(student) if student else None
+    where = place or people.setting(NAME_SETTING)
+    facts = ReportFacts(find_course(course).title if course else "", group, where, rule)
+    with_progress(
+        lambda progress: write_report(
+            out,
+            lambda: (
+                group_report(results, titles, facts, progress)
+                if person is None
+                else student_report(results, person, titles)
+            ),
+        )
     )
 
 

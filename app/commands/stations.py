@@ -1,4 +1,4 @@
-"""`acus store stations`, `revoke`, `renew`, `results`, `station`, `gather`: several stations."""
+"""`acus store stations`, `revoke`, `renew`, `results`, `station`, `gather`, `audit`."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -23,6 +23,7 @@ def add_to(store: Commands) -> None:
     store.command("results")(results)
     store.command("station")(station)
     store.command("gather")(gather)
+    store.command("audit")(audit)
 
 
 def stations(
@@ -248,3 +249,44 @@ def gather(
     facts = {"taken": taken, "refused": refused, "excess": excess}
     yes = not refused and not any(one["different"] for one in taken)
     return Answer(facts, lines, yes=yes, shown=Each("taken", row))
+
+
+def audit(
+    last: Annotated[int, typer.Option("--last", help="Only so many lines; 0: all.", min=0)] = 20,
+) -> Answer:
+    """Say who did what at this station (instructor).
+
+    Keys and ids, no names. Each line is signed and chained to the one before; ends with code 3 if
+    one was changed, taken out or put in.
+    """
+    from app.session.audit import audit_file, entries
+    from app.session.people import People
+
+    people = People()
+    instructor(people)
+    every = entries(people.folder)
+    wrong = [one.number for one in every if not one.right]
+    shown_lines = every[-last:] if last else every
+    facts = {
+        "file": audit_file(people.folder),
+        "lines": len(every),
+        "wrong": wrong,
+        "entries": [
+            {
+                "number": one.number,
+                "time": one.time,
+                "who": one.who,
+                "what": one.what,
+                "about": list(one.about),
+                "count": one.count,
+                "right": one.right,
+            }
+            for one in shown_lines
+        ],
+    }
+    row = template("{number:6} {time:25} {who:14} {what:22} {count:4} {about}")
+    shown = (
+        Each("entries", row, template("nothing was done yet")),
+        template("{wrong:?✖ not as they were written: {wrong}|}"),
+    )
+    return Answer(facts, yes=not wrong, shown=shown)

@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.reader_language import local, template
+from app.commands.school_store import add_to as add_school_store
 from app.commands.shown import Each
 from app.commands.stations import add_to
 from app.core.messages import sentence
@@ -26,6 +27,7 @@ def register(app: typer.Typer) -> None:
     store.command("restore")(restore)
     store.command("empty-trash")(empty)
     add_to(store)
+    add_school_store(store)
     app.add_typer(store, name="store")
 
 

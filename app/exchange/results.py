@@ -8,8 +8,8 @@ typed without signing in stands as it was typed, with an empty pseudonym.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Final
@@ -22,7 +22,9 @@ from app.core.progress import Progress
 from app.core.words import printable
 from app.exchange.csv_export import table_text, write_csv
 from app.exchange.errors import ExportError
+from app.exchange.moodle import MoodleChoice, moodle_text
 from app.scoring.conditions import comparison_groups
+from app.session.accounts import Account
 from app.session.board import ProgressBoard
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
@@ -74,6 +76,8 @@ class Results:
         people: by key, which is what records name.
         remarks: by attempt.
         names: names by key where the instructor wants them in the files.
+        accounts: what other programs call students, by key.
+        titles: of exercises, by id.
     """
 
     board: ProgressBoard
@@ -81,6 +85,8 @@ class Results:
     people: Mapping[str, Person]
     remarks: Mapping[str, Remarks]
     names: Mapping[str, str]
+    accounts: Mapping[str, Mapping[Account, str]] = field(default_factory=dict)
+    titles: Mapping[str, str] = field(default_factory=dict)
 
 
 def results_text(
@@ -88,11 +94,22 @@ def results_text(
     form: ResultsFormat,
     semicolons: bool = False,
     progress: Progress | None = None,
+    gradebook: MoodleChoice | None = None,
+    translate: Callable[[str], str] = str,
 ) -> str:
     """Return a file's text.
 
+    Args:
+        results: what leaves.
+        form: of the file.
+        semicolons: between cells; with decimal commas, but for Moodle.
+        progress: reports, and may cancel.
+        gradebook: how Moodle's is written; user names and the best by default.
+        translate: a sentence into the language of the feedback.
+
     Raises:
         Cancelled: if that was asked for.
+        ExportError: if Moodle could not tell whose a row of the gradebook is.
     """
     progress = progress or Progress()
     if form is ResultsFormat.TIDY:
@@ -100,7 +117,9 @@ def results_text(
     if form is ResultsFormat.WIDE:
         return table_text(_wide(results), semicolons)
     if form is ResultsFormat.MOODLE:
-        return table_text(_moodle(results), semicolons)
+        progress.check()
+        told = (results.accounts, results.titles, results.remarks, semicolons, translate)
+        return moodle_text(results.board, gradebook or MoodleChoice(), *told)
     document = results_document(results, progress)
     text = json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False)
     return printable(text) + "\n"  # JSON's own escapes: it reads as it was
@@ -211,15 +230,6 @@ def _wide(results: Results) -> Iterator[Sequence[object]]:
             cells += [cell.attempts, cell.best, cell.last, cell.trend, passed, days]
         known = (results.names.get(person.key, ""),) if results.names else ()
         yield (*known, person.pseudonym, " ".join(person.groups), *cells, DISCLAIMER)
-
-
-def _moodle(results: Results) -> Iterator[Sequence[object]]:
-    """Moodle maps `username` to its users and each further column to a grade item, 0 to 100."""
-    board = results.board
-    yield ("username", *(f"Acus {item.exercise} (version {item.version})" for item in board.items))
-    for person in board.students:
-        best = [board.cells[person.key, item.exercise].best for item in board.items]
-        yield (person.pseudonym, *(None if grade is None else round(grade, 2) for grade in best))
 
 
 def _grouped(results: Results) -> Iterator[tuple[Indexed, int | None]]:

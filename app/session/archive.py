@@ -27,6 +27,7 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.files import beside, remove, replace, step, sweep
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.session.audit import note
 from app.session.backup_file import FORMAT, MANIFEST, VERSION, ArchiveError, may_hold
 from app.session.course import courses_folder
 from app.session.database import BUSY_SECONDS
@@ -77,6 +78,7 @@ def backup(
     except (OSError, sqlite3.Error) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else error
         raise ArchiveError(sentence("cannot write {out}: {reason}", out=out, reason=why)) from error
+    note("backup written", folder=people.folder)
     return count
 
 

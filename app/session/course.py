@@ -20,6 +20,7 @@ from app.core.messages import sentence
 from app.exercises.guidance import Purpose
 from app.exercises.library import library
 from app.exercises.schema import Exercise
+from app.session.audit import note
 from app.session.errors import SessionError
 from app.session.index import Indexed
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
@@ -130,6 +131,7 @@ class Course(Strict):
         text = yaml.safe_dump(self.document(), sort_keys=False, allow_unicode=True)
         try:
             write_atomically(path, text)
+            note("course saved", [self.id], path.parent.parent)
         except OSError as error:
             raise CourseError(
                 sentence(

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from app.core.messages import sentence
+from app.session.audit import note
 from app.session.errors import SessionError
 from app.session.header import TRASH
 from app.session.index import Index
@@ -54,6 +55,7 @@ def erase_person(
     own |= {path.stem for path in trash if read_kept(path).summary.student == person.key}
     ids, there = sorted(own), (*records(folder), *trash)
     files = [file for path in there if path.stem in own for file in beside(path)]
+    note("student erased", [person.key], people.folder)
     if delete_records:
         people.forget_keys([person.key], ids, ids, files)
         index.refresh()

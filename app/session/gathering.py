@@ -16,85 +16,32 @@ Each file is checked whole beside its place, then taken in one step (`journal`) 
 
 from __future__ import annotations
 
-import hashlib
-import json
-import os
 import zipfile
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
-from uuid import uuid4
+from typing import TYPE_CHECKING
 
-from app.core import paths
-from app.core.files import LARGEST_FILE
 from app.core.messages import sentence
 from app.core.progress import Progress
-from app.session.backup_file import ArchiveError, unpack
+from app.session.audit import note
+from app.session.backup_file import ArchiveError
 from app.session.erasing import finish_erasing
-from app.session.header import TRASH
-from app.session.journal import Step, move, removal
-from app.session.limits import hold_limits
-from app.session.people import People, Person, tables
-from app.session.school_file import SchoolManifest, read_manifest, stations_with
-from app.session.school_tables import COUNTED, TOMBSTONES, ErasedKeys
-from app.session.sidecar import file_digest, read_kept, sidecar, summary_text
-from app.session.signature import RECORD, shown_of, signature_file
-from app.session.station import StationKey, signature_holds
+from app.session.people import People
+from app.session.school_file import read_manifest, stations_with
+from app.session.station import StationKey
 from app.session.station_results import (
-    COUNTER,
-    CountedAttempt,
-    SignedRemark,
-    counted_attempts,
-    counter_of,
-    put_remarks,
     sign_and_number,
-    signed_remarks,
-    tombstones,
 )
 from app.session.stations import (
-    KnownStation,
-    put_setting,
-    put_stations,
     stations_of,
 )
-from app.session.store import SUFFIX, beside, records, settled
-from app.session.summary import Summary
+from app.session.store import settled
+from app.session.taking_in import GatheredFile as GatheredFile
+from app.session.taking_in import OpenedFile, TakingIn
 
 if TYPE_CHECKING:
-    from sqlalchemy import Connection
-
-_RECORDS: Final = "records/"
-_COURSES: Final = "people/courses/"
-
-
-@dataclass(frozen=True, slots=True)
-class GatheredFile:
-    """What a file of another station brought.
-
-    Attributes:
-        station: name of the station that wrote it.
-        attempts: that were missing here.
-        present: that were here already.
-        remarks: that are the latest now.
-        erased: persons who were erased here by it.
-        left_out: attempts, remarks and people left out because they were erased somewhere.
-        people: students who are new here.
-        courses: that are new here.
-        excess: attempts beyond a course's limit, all files together.
-        different: a line for each thing that is another one here and was left out.
-    """
-
-    station: str = ""
-    attempts: int = 0
-    present: int = 0
-    remarks: int = 0
-    erased: int = 0
-    left_out: int = 0
-    people: int = 0
-    courses: int = 0
-    excess: int = 0
-    different: tuple[str, ...] = ()
+    pass
 
 
 def gather_file(
@@ -120,16 +67,59 @@ def gather_file(
             station that is revoked or not known.
         Cancelled: if that was asked for. After each of these nothing of the file is here.
     """
+    with reading(source), zipfile.ZipFile(source) as archive:
+        opened = OpenedFile(archive, source, read_manifest(archive, source))
+        return gather_opened([opened], folder, trust, names, people, progress)
+
+
+def gather_opened(
+    files: Sequence[OpenedFile],
+    folder: Path,
+    trust: bool = False,
+    names: bool = False,
+    people: People | None = None,
+    progress: Progress | None = None,
+    giving_way: frozenset[str] = frozenset(),
+) -> GatheredFile:
+    """Take in several files as one, all of them or nothing.
+
+    Args:
+        files: in whatever order.
+        folder: of the records here.
+        trust: as in `gather_file`, like the next three.
+        names: students' too.
+        people: of this station.
+        progress: reports, and may cancel.
+        giving_way: SHA-256 of courses and exercises that came from elsewhere: where one of these
+            is here still, another of its name takes its place.
+
+    Raises:
+        ArchiveError, OSError, zipfile.BadZipFile: as `gather_file`, for one of them.
+        Cancelled: if that was asked for.
+    """
     people, progress = people or People(), progress or Progress()
+    key, known = StationKey.of(people.folder), stations_of(people)
+    for one in files:
+        known = stations_with(one.manifest, known, key, one.source, trust)
+    settled(folder)
+    sign_and_number(folder, people, key, progress.part(0.0, 0.2))
+    at = TakingIn(tuple(files), folder, people, key, known, giving_way)
+    at.take(names, progress.part(0.2, 1.0))
+    finish_erasing(folder, people)
+    senders = sorted({one.manifest.sender.station for one in files})
+    note("files taken in", senders, people.folder)
+    return at.done
+
+
+@contextmanager
+def reading(source: Path) -> Iterator[None]:
+    """Name a file of another station in whatever goes wrong with it.
+
+    Raises:
+        ArchiveError: for an archive that is none, and for what the system refuses.
+    """
     try:
-        with zipfile.ZipFile(source) as archive:
-            manifest = read_manifest(archive, source)
-            key = StationKey.of(people.folder)
-            known = stations_with(manifest, stations_of(people), key, source, trust)
-            settled(folder)
-            sign_and_number(folder, people, key, progress.part(0.0, 0.2))
-            at = _Gathering(archive, source, manifest, folder, people, key, known)
-            at.take(names, progress.part(0.2, 1.0))
+        yield
     except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
         raise ArchiveError(
             sentence(
@@ -145,299 +135,3 @@ def gather_file(
                 place=error.filename or "",
             )
         ) from error
-    finish_erasing(folder, people)
-    return at.done
-
-
-@dataclass
-class _Gathering:
-    """One file on its way in.
-
-    Attributes:
-        archive: the file, open.
-        source: its path, for messages.
-        manifest: what it says, signed.
-        folder: of the records here.
-        people: of this station.
-        key: of this station.
-        known: stations, with this file's.
-        done: what came of it so far.
-    """
-
-    archive: zipfile.ZipFile
-    source: Path
-    manifest: SchoolManifest
-    folder: Path
-    people: People
-    key: StationKey
-    known: Mapping[str, KnownStation]
-    done: GatheredFile = field(default_factory=GatheredFile)
-    erased_keys: ErasedKeys = field(default_factory=lambda: ErasedKeys(()))
-    counted: list[CountedAttempt] = field(default_factory=list)
-    steps: list[Step] = field(default_factory=list)
-    courses: list[Path] = field(default_factory=list)
-
-    def take(self, names: bool, progress: Progress) -> None:
-        """Prepare everything beside its place, then put it there as one step."""
-        self.done = replace(self.done, station=self.manifest.sender.name)
-        mark = f".gathering.{uuid4().hex}"
-        rooms = (self.folder, self.people.folder, paths.data())
-        for room in rooms:
-            room.mkdir(parents=True, exist_ok=True, mode=0o700)
-        stages = {room: room / mark for room in rooms}
-        undo = [removal(stage) for stage in stages.values()]
-
-        def prepare() -> None:
-            with self.people.database.read() as connection:
-                stones = tombstones(connection)
-            self.erased_keys = ErasedKeys({*stones, *self.manifest.tombstones})
-            for stage in stages.values():
-                stage.mkdir(mode=0o700)
-            self._stage(stages, progress)
-            _sync(stages.values())
-
-        with self.people.as_one(self.steps, undo, prepare) as (connection, write_names):
-            self._change(connection)
-            self._take_people(connection, names, write_names)
-            excess = hold_limits(connection, self.people.folder, self.courses)
-            self.done = replace(self.done, excess=excess)
-            self.steps += undo
-        if self.done.erased:
-            self.people.database.shrink()
-
-    # --- files ------------------------------------------------------------------------------------
-    def _stage(self, stages: Mapping[Path, Path], progress: Progress) -> None:
-        """Unpack and check what is missing here."""
-        gone = self.people.erased_attempts()
-        for number, one in enumerate(self.manifest.attempts):
-            progress.report(number / len(self.manifest.attempts), one.attempt)
-            self._stage_attempt(one, gone, stages[self.folder])
-        rooms = ((_COURSES, self.people.folder), ("exercises/", paths.data()))
-        for name in self.manifest.files:
-            progress.check()
-            for begin, room in (*rooms, ("structures/", paths.data())):
-                if name.startswith(begin):
-                    self._stage_own(name, room / name.removeprefix("people/"), stages[room])
-
-    def _stage_attempt(self, attempt: CountedAttempt, gone: frozenset[str], stage: Path) -> None:
-        record, signature = (
-            f"{_RECORDS}{attempt.attempt}{SUFFIX}",
-            f"{_RECORDS}{attempt.attempt}.sig",
-        )
-        if (
-            self.manifest.files.get(record) != attempt.record
-            or signature not in self.manifest.files
-        ):
-            raise ArchiveError(_damaged(self.source, record))
-        if attempt.attempt in gone or self.erased_keys.of(attempt.student) == "deleted":
-            self.done = replace(self.done, left_out=self.done.left_out + 1)
-            return
-        target = self.folder / f"{attempt.attempt}{SUFFIX}"
-        places = (target, self.folder / TRASH / target.name)
-        here = next((path for path in places if path.exists()), None)
-        if here is not None and file_digest(here) != attempt.record:
-            self.say(sentence("the attempt {name} is another record here", name=attempt.attempt))
-            return
-        self.counted.append(attempt)
-        if here is not None:
-            self.done = replace(self.done, present=self.done.present + 1)
-            return
-        for name, place in ((signature, signature_file(target)), (record, target)):
-            self._unpack(name, stage / place.name)
-            self.steps.append(move(stage / place.name, place))
-        shown = self._check_signature(stage / target.name, attempt)
-        self._stage_summary(stage / target.name, attempt.record, shown)
-        self.done = replace(self.done, attempts=self.done.attempts + 1)
-
-    def _unpack(self, name: str, target: Path) -> None:
-        try:
-            digest = self.manifest.files[name]
-            unpack(self.archive, name, digest, target, self.source, durable=False)
-        except ArchiveError as error:
-            raise ArchiveError(_damaged(self.source, name)) from error
-
-    def _check_signature(self, record: Path, attempt: CountedAttempt) -> dict[str, Any]:
-        """Return what lists show by the signature of a record.
-
-        Refuses the file where its station did not sign this record of this student.
-        """
-        try:
-            document = json.loads(signature_file(record).read_text("ascii"))
-            shown, public = document["shown"], str(document.pop("public"))
-            signature = str(document.pop("ed25519"))
-            del document["hmac"]
-            said = (document["id"], document["station"], document["record"])
-            whom = (shown["student"], shown["exercise"])
-        except (ValueError, LookupError, TypeError, AttributeError, RecursionError) as error:
-            raise ArchiveError(_damaged(self.source, record.name)) from error
-        mine = public in self.key.publics
-        theirs = self.known.get(public)
-        right = mine or (theirs is not None and theirs.station == attempt.station)
-        right = right and said == (attempt.attempt, attempt.station, attempt.record)
-        right = right and whom == (attempt.student, attempt.exercise)
-        if not (right and signature_holds(public, RECORD, document, signature)):
-            raise ArchiveError(
-                sentence(
-                    "{source} is forged: {name} is not signed by the station {station}; ask there "
-                    "for the file",
-                    source=self.source,
-                    name=attempt.attempt,
-                    station=self.manifest.sender.name,
-                )
-            )
-        return dict(shown)
-
-    def _stage_summary(self, record: Path, digest: str, shown: Mapping[str, Any]) -> None:
-        """Keep the summary that the station gives of a record beside it, for lists.
-
-        One that does not say what is signed is left out: lists read the record then.
-        """
-        name = f"{_RECORDS}{record.stem}.json"
-        info = self.archive.NameToInfo.get(name) if name in self.manifest.files else None
-        if info is None or info.file_size > LARGEST_FILE:
-            return
-        data = self.archive.read(info)
-        try:
-            summary = Summary.of(json.loads(data), record.stem)
-        except (ValueError, LookupError, TypeError, ArithmeticError, RecursionError):
-            return
-        right = hashlib.sha256(data).hexdigest() == self.manifest.files[name]
-        if right and shown_of(summary) == shown:
-            text = summary_text(record, summary, digest)
-            sidecar(record).write_text(text, encoding="utf-8", newline="\n")
-            self.steps.append(move(sidecar(record), sidecar(self.folder / record.name)))
-
-    def _stage_own(self, name: str, target: Path, stage: Path) -> None:
-        """Prepare a course or an exercise; one that is here is kept, and said if it is another."""
-        digest = self.manifest.files[name]
-        if target.exists():
-            if file_digest(target) != digest:
-                self.say(sentence("{name} is another file here", name=name))
-            return
-        self._unpack(name, stage / name)
-        self.steps.append(move(stage / name, target))
-        if name.startswith(_COURSES):
-            self.courses.append(stage / name)
-            self.done = replace(self.done, courses=self.done.courses + 1)
-
-    # --- lists ------------------------------------------------------------------------------------
-    def _change(self, connection: Connection) -> None:
-        """Write what is signed: stations, tombstones, numbers and remarks."""
-        from sqlalchemy.dialects.sqlite import insert
-
-        put_stations(connection, self.key, self.known.values())
-        table = tables()[TOMBSTONES]
-        for stone in self.manifest.tombstones:
-            put = insert(table).values(**stone._asdict())
-            connection.execute(put.on_conflict_do_nothing())
-        for one in self.counted:
-            put = insert(tables()[COUNTED]).values(**one._asdict())
-            connection.execute(put.on_conflict_do_nothing())
-        latest = signed_remarks(connection)
-        later: dict[tuple[str, str], SignedRemark] = {}
-        keys = {**self.known}
-        for public in self.key.publics:  # what this station said, come back
-            keys[public] = KnownStation(self.key.station, "", public)
-        for remark in self.manifest.remarks:
-            place = (remark.attempt, remark.kind)
-            before = later.get(place, latest.get(place))
-            if self.erased_keys.of(remark.student):
-                self.done = replace(self.done, left_out=self.done.left_out + 1)
-            elif before is not None and before.order() >= remark.order():
-                continue
-            elif not remark.holds(keys):
-                raise ArchiveError(
-                    sentence(
-                        "{source} is forged: a remark in it is not signed by the station "
-                        "{station}; ask there for the file",
-                        source=self.source,
-                        station=self.manifest.sender.name,
-                    )
-                )
-            else:
-                later[place] = remark
-        put_remarks(connection, later.values())
-        most = max((one.counter for one in self.manifest.remarks), default=0)
-        put_setting(connection, COUNTER, str(max(counter_of(connection), most)))
-        self.done = replace(self.done, remarks=len(later))
-
-    def _take_people(self, connection: Connection, names: bool, write_names: Any) -> None:
-        """Add the students who are new, and erase those who were erased elsewhere."""
-        from sqlalchemy.dialects.sqlite import insert
-
-        listed = self.people.names()
-        after = dict(listed)
-        persons, members = tables()["persons"], tables()["members"]
-        known = {one.key: one for one in self.people.everybody()}
-        taken = {one.pseudonym.casefold(): one.key for one in known.values()}
-        for one in self.manifest.people:
-            holder = taken.get(one.pseudonym.casefold(), one.key)
-            if self.erased_keys.of(one.key):
-                self.done = replace(self.done, left_out=self.done.left_out + 1)
-                continue
-            if one.key not in known and holder != one.key:
-                self.say(
-                    sentence(
-                        "{pseudonym} is somebody else here: give one of them another pseudonym",
-                        pseudonym=one.pseudonym,
-                    )
-                )
-                continue
-            if one.key not in known:
-                connection.execute(persons.insert(), one.row())
-                known[one.key] = Person(one.key, one.pseudonym)
-                taken[one.pseudonym.casefold()] = one.key
-                self.done = replace(self.done, people=self.done.people + 1)
-            for group in one.groups:
-                put = insert(members).values(person=one.key, grp=group)
-                connection.execute(put.on_conflict_do_nothing())
-            if names and one.name:
-                after.setdefault(one.key, one.name)
-        self._erase(connection, set(known))
-        after = {key: name for key, name in after.items() if not self.erased_keys.of(key)}
-        if after != listed:
-            write_names(after)
-
-    def _erase(self, connection: Connection, known: set[str]) -> None:
-        """Erase who has a tombstone, with records where these were not kept as nobody's."""
-        counted = counted_attempts(connection)
-        latest = signed_remarks(connection)
-        students = known | {one.student for one in counted.values()}
-        gone = {key for key in students if self.erased_keys.of(key)}
-        if not gone:
-            return
-        numbered = {name: one.student for name, one in counted.items()}
-        files = [*records(self.folder), *records(self.folder / TRASH)]
-        whose = {path: numbered.get(path.stem) or read_kept(path).summary.student for path in files}
-        own = [path for path, student in whose.items() if student in gone]
-        lost = [path for path in own if self.erased_keys.of(whose[path]) == "deleted"]
-        names = {name for name, student in numbered.items() if student in gone}
-        comments = names | {path.stem for path in own}
-        comments |= {place[0] for place, one in latest.items() if self.erased_keys.of(one.student)}
-        ids = {path.stem for path in lost}
-        ids |= {name for name in names if self.erased_keys.of(numbered[name]) == "deleted"}
-        self.people.forget_in(connection, sorted(gone), sorted(comments), sorted(ids))
-        self.steps += [removal(file) for path in lost for file in beside(path)]
-        self.done = replace(self.done, erased=len(gone & known))
-
-    def say(self, line: str) -> None:
-        """Name what is left out because it is another one here."""
-        self.done = replace(self.done, different=(*self.done.different, line))
-
-
-def _sync(stages: Any) -> None:
-    """Wait until what was unpacked stands on the disk."""
-    if hasattr(os, "sync"):
-        os.sync()  # one wait for thousands of small files
-        return
-    for stage in stages:
-        for path in stage.rglob("*"):
-            if path.is_file():
-                with path.open("rb+") as stream:
-                    os.fsync(stream.fileno())
-
-
-def _damaged(source: Path, name: str) -> str:
-    return sentence(
-        "{source} is damaged at {name}: fetch it anew from its station", source=source, name=name
-    )

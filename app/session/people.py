@@ -26,6 +26,9 @@ from uuid import uuid4
 from app.core import paths
 from app.core.files import beside, step
 from app.core.messages import sentence
+from app.core.sorting import name_order
+from app.session.accounts import entry_of, owner_of
+from app.session.audit import note
 from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
@@ -38,6 +41,7 @@ from app.session.school_tables import (
     Tombstone,
     add_tables,
 )
+from app.session.statement_queue import FOLDER, StatementQueue
 from app.session.station import StationKey, new_recovery_key, opens
 from app.session.tries import (
     INSTRUCTOR,
@@ -163,6 +167,7 @@ class People:
                 )
             _set(connection, "password", hashed_secret(password))
             _set(connection, "wrapped", json.dumps(wrapped))
+        note("password set", folder=self.folder)
         return recovery
 
     def check_instructor(self, password: str) -> str:
@@ -202,6 +207,7 @@ class People:
             _set(connection, "password", hashed_secret(new))
             if anew:
                 _set(connection, "wrapped", anew)
+        note("password changed", folder=self.folder)
         return recovery
 
     def recover(self, recovery: str, new: str) -> None:
@@ -232,6 +238,7 @@ class People:
         with self.database.write() as connection:
             _set(connection, "password", hashed_secret(new))
             connection.execute(_failures().delete())
+        note("password recovered", folder=self.folder)
 
     def wrapped_key(self) -> dict[str, str]:
         """Return the station's key under the recovery key, for a backup; empty without one."""
@@ -262,7 +269,7 @@ class People:
             )
             for row in rows
         ]
-        return sorted(found, key=lambda person: person.pseudonym.casefold())
+        return sorted(found, key=lambda person: name_order(person.pseudonym))
 
     def find(self, pseudonym: str) -> Person:
         """Return a student by pseudonym, in whatever case, or by key.
@@ -316,6 +323,8 @@ class People:
         t = _tables().tables
         persons, members = t["persons"], t["members"]
         added, updated = [], []
+        new_keys: list[str] = []
+        changed: list[str] = []
         pins: dict[str, str] = {}
         hashed = {}
         there = {person.pseudonym.casefold() for person in self.everybody()}
@@ -336,6 +345,7 @@ class People:
                     row = {"key": key, "pseudonym": line.pseudonym, "pin": hashed[line.pseudonym]}
                     connection.execute(insert(persons), row | {"created": _now()})
                     added.append(line.pseudonym)
+                    new_keys.append(key)
                 else:
                     pins.pop(line.pseudonym, None)
                     if line.pin:
@@ -344,12 +354,17 @@ class People:
                     if line.groups:
                         connection.execute(members.delete().where(members.c.person == key))
                     updated.append(line.pseudonym)
+                    changed.append(key)
                 if line.groups:
                     rows = [{"person": key, "grp": group} for group in line.groups]
                     connection.execute(insert(members), rows)
                 if line.name:
                     names[key] = line.name
+                names |= {entry_of(key, kind): value for kind, value in line.accounts.items()}
             write_names(names)
+        for what, keys in (("students added", new_keys), ("students changed", changed)):
+            if keys:
+                note(what, keys, self.folder)
         pinned = MappingProxyType(pins)
         return RosterReport(tuple(added), tuple(updated), pinned, tuple(errors))
 
@@ -366,6 +381,7 @@ class People:
         with self.database.write() as connection:
             connection.execute(update(table).where(table.c.key == person.key).values(pin=hashed))
             connection.execute(_failures().delete().where(_failures().c.account == person.key))
+        note("PIN set", [person.key], self.folder)
 
     def sign_in(self, pseudonym: str, pin: str) -> Person:
         """Let a student in.
@@ -392,6 +408,7 @@ class People:
         self._tries().compare(account, pins.get(account, ""), pin)
         if person is None:  # whose PIN nobody knows
             raise WrongPasswordError(NO_SIGN_IN)
+        note("signed in", [person.key], self.folder)
         return person
 
     def pseudonyms(self) -> dict[str, str]:
@@ -433,6 +450,7 @@ class People:
             for attempt in attempts:
                 put = insert(table).values(attempt=attempt, **new)
                 connection.execute(put.on_conflict_do_update(["attempt"], set_=message))
+        note("attempts remarked", attempts, self.folder)
 
     def admitted(self) -> list[tuple[str, str, str, str, str]]:
         """Return what was admitted (`admission`): attempt, record, reason, time and seal."""
@@ -459,6 +477,7 @@ class People:
                 values = dict(zip(names, row, strict=True))
                 put = insert(table).values(**values)
                 connection.execute(put.on_conflict_do_update(["attempt"], set_=values))
+        note("attempts admitted", [row[0] for row in rows], self.folder)
 
     # --- erasing ----------------------------------------------------------------------------------
     def erased(self) -> dict[str, str]:
@@ -506,7 +525,7 @@ class People:
                 stone = Tombstone.over(key, anonymous)
                 connection.execute(_tables().tables[TOMBSTONES].insert(), stone._asdict())
             names = self.names()
-            left = {key: name for key, name in names.items() if key not in keys}
+            left = {entry: name for entry, name in names.items() if owner_of(entry) not in keys}
             if left != names:
                 write_names(left)
         self.database.shrink()
@@ -522,6 +541,7 @@ class People:
         from sqlalchemy.dialects.sqlite import insert
 
         t = _tables().tables
+        StatementQueue(self.folder / FOLDER).forget(keys)
         for key in keys:
             for name, column in OF_PERSON.items():
                 connection.execute(t[name].delete().where(t[name].c[column] == key))
@@ -555,7 +575,7 @@ class People:
             return _setting(connection, name)
 
     def names(self) -> dict[str, str]:
-        """Return names by key.
+        """Return names by key, and what other programs call students (`accounts.accounts_in`).
 
         Raises:
             PeopleError: if their file cannot be read, or is damaged.

@@ -20,6 +20,8 @@ from app.core import paths
 from app.core.files import read_at_most, write_atomically
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.session.accounts import owner_of
+from app.session.audit import note
 from app.session.backup_file import ArchiveError, Manifest, read_manifest, unpack
 from app.session.erasing import finish_erasing
 from app.session.errors import BrokenRecordingError
@@ -154,6 +156,7 @@ def restore_backup(
             )
         ) from error
     finish_erasing(folder, people)
+    note("backup restored", [manifest.station], people.folder)
     return at.done
 
 
@@ -258,7 +261,8 @@ def _people(at: _Restoring, there: PeopleRows, replace_people: bool) -> None:
     write_rows(taken, stage / "new" / PEOPLE)
     at.steps.append(move_database(stage / "new" / PEOPLE, folder / PEOPLE))
     keys = taken.ids("persons")
-    left = {key: name for key, name in {**listed, **names}.items() if key in keys}
+    every = {**listed, **names}
+    left = {entry: name for entry, name in every.items() if owner_of(entry) in keys}
     write_atomically(stage / "new" / NAMES_FILE, json.dumps(left, indent=1, ensure_ascii=False))
     at.steps.append(move(stage / "new" / NAMES_FILE, folder / NAMES_FILE))
     for name in courses:

@@ -88,7 +88,7 @@ def write_results(
         ArchiveError: if it cannot be written.
     """
     people, progress = people or People(), progress or Progress()
-    key = _up_to_date(folder, people, progress)
+    key = up_to_date(folder, people, progress.part(0.0, 0.3))
 
     def fill(archive: zipfile.ZipFile) -> WrittenFile:
         with people.database.read() as connection:
@@ -109,7 +109,7 @@ def write_results(
             progress.report(0.3 + 0.7 * number / len(own), one.attempt)
             if not (folder / f"{one.attempt}{SUFFIX}").exists():
                 continue  # deleted here: it is not this station's result any more
-            if digests := _pack(archive, folder, one, key):
+            if digests := pack_attempt(archive, folder, one, key):
                 files |= digests
                 taken.append(one)
             else:
@@ -121,7 +121,7 @@ def write_results(
         ]
         manifest = SchoolManifest(
             RESULTS,
-            _sender(people, key, counter),
+            sender_of(people, key, counter),
             tuple(key.succession()),
             files,
             tuple(taken),
@@ -158,45 +158,82 @@ def write_course(
         ArchiveError: if it cannot be written.
     """
     people, progress = people or People(), progress or Progress()
-    key = _up_to_date(folder, people, progress)
+    key = up_to_date(folder, people, progress.part(0.0, 0.3))
 
     def fill(archive: zipfile.ZipFile) -> WrittenFile:
-        with people.database.read() as connection:
-            stones, counter = tombstones(connection), counter_of(connection)
-        known = tuple(stations_of(people).values())
-        students = tuple(_students(people, names, pins))
-        members = [*_courses(people), *own_files()]
-        files, courses = {}, 0
-        for number, (name, path) in enumerate(members):
-            progress.report(0.3 + 0.7 * number / len(members), path.name)
-            if may_hold(name):
-                step("pack", path)
-                files[name] = packed_digest(path.read_bytes(), name, archive)
-                courses += name.startswith("people/")
-        manifest = SchoolManifest(
-            COURSE,
-            _sender(people, key, counter),
-            tuple(key.succession()),
-            files,
-            tombstones=tuple(stones),
-            people=students,
-            stations=known,
-        )
+        manifest = pack_course(archive, people, key, names, pins, progress.part(0.3, 1.0))
         write_manifest(archive, manifest, key)
-        return WrittenFile(erased=len(stones), people=len(students), courses=courses)
+        return WrittenFile(
+            erased=len(manifest.tombstones),
+            people=len(manifest.people),
+            courses=sum(name.startswith("people/") for name in manifest.files),
+        )
 
     return _whole(out, people, fill)
 
 
-# --- inside ---------------------------------------------------------------------------------------
-def _up_to_date(folder: Path, people: People, progress: Progress) -> StationKey:
-    """Sign and number what is new here, before it is written; return the key of this station."""
+def pack_course(
+    archive: zipfile.ZipFile,
+    people: People,
+    key: StationKey,
+    names: bool,
+    pins: bool,
+    progress: Progress,
+) -> SchoolManifest:
+    """Pack courses and own exercises; return what a course for a station says."""
+    with people.database.read() as connection:
+        stones, counter = tombstones(connection), counter_of(connection)
+    files = {}
+    members = [*_courses(people), *own_files()]
+    for number, (name, path) in enumerate(members):
+        progress.report(number / len(members), path.name)
+        if may_hold(name):
+            step("pack", path)
+            files[name] = packed_digest(path.read_bytes(), name, archive)
+    return SchoolManifest(
+        COURSE,
+        sender_of(people, key, counter),
+        tuple(key.succession()),
+        files,
+        tombstones=tuple(stones),
+        people=tuple(_students(people, names, pins)),
+        stations=tuple(stations_of(people).values()),
+    )
+
+
+def up_to_date(folder: Path, people: People, progress: Progress) -> StationKey:
+    """Sign and number what is new here, before it is sent; return the key of this station."""
     key = StationKey.of(people.folder)
     settled(folder)
-    sign_and_number(folder, people, key, progress.part(0.0, 0.3))
+    sign_and_number(folder, people, key, progress)
     return key
 
 
+def sender_of(people: People, key: StationKey, counter: int) -> KnownStation:
+    """Return this station as its files tell of it."""
+    return KnownStation(key.station, name_of_station(people, key), key.public, counter)
+
+
+def pack_attempt(
+    archive: zipfile.ZipFile, folder: Path, attempt: CountedAttempt, key: StationKey
+) -> dict[str, str]:
+    """Pack a record with its signature; nothing where one of them is not what it was."""
+    path = folder / f"{attempt.attempt}{SUFFIX}"
+    step("pack", path)
+    document, check = read_signature(path, key)
+    if check.verdict is not Signed.VERIFIED or document["record"] != file_digest(path):
+        return {}
+    # those of earlier versions have no signature that others could verify
+    parts = {".sig": signature_text(document, key).encode(), SUFFIX: path.read_bytes()}
+    kept = cached(path)
+    if kept is not None and kept.fits(path):
+        summary = json.dumps(kept.summary.document(), ensure_ascii=False, allow_nan=False)
+        parts[".json"] = summary.encode("utf-8", "surrogatepass")
+    names = {f"records/{attempt.attempt}{ending}": data for ending, data in parts.items()}
+    return {name: packed_digest(data, name, archive) for name, data in names.items()}
+
+
+# --- inside ---------------------------------------------------------------------------------------
 def _whole(
     out: Path, people: People, fill: Callable[[zipfile.ZipFile], WrittenFile]
 ) -> WrittenFile:
@@ -220,29 +257,6 @@ def _whole(
         why = error.strerror or error
         raise ArchiveError(sentence("cannot write {out}: {reason}", out=out, reason=why)) from error
     return written
-
-
-def _sender(people: People, key: StationKey, counter: int) -> KnownStation:
-    return KnownStation(key.station, name_of_station(people, key), key.public, counter)
-
-
-def _pack(
-    archive: zipfile.ZipFile, folder: Path, attempt: CountedAttempt, key: StationKey
-) -> dict[str, str]:
-    """Pack a record with its signature; nothing where one of them is not what it was."""
-    path = folder / f"{attempt.attempt}{SUFFIX}"
-    step("pack", path)
-    document, check = read_signature(path, key)
-    if check.verdict is not Signed.VERIFIED or document["record"] != file_digest(path):
-        return {}
-    # those of earlier versions have no signature that others could verify
-    parts = {".sig": signature_text(document, key).encode(), SUFFIX: path.read_bytes()}
-    kept = cached(path)
-    if kept is not None and kept.fits(path):
-        summary = json.dumps(kept.summary.document(), ensure_ascii=False, allow_nan=False)
-        parts[".json"] = summary.encode("utf-8", "surrogatepass")
-    names = {f"records/{attempt.attempt}{ending}": data for ending, data in parts.items()}
-    return {name: packed_digest(data, name, archive) for name, data in names.items()}
 
 
 def _students(people: People, names: bool, pins: bool) -> Iterator[SentStudent]:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Final
 from uuid import uuid4
 
 from app.core.messages import sentence
+from app.session.audit import note
 from app.session.errors import PeopleError
 from app.session.journal import move, removal
 from app.session.people import PEOPLE, People, tables
@@ -126,6 +127,7 @@ def set_name(name: str, people: People | None = None) -> str:
     people, name = people or People(), checked_name(name)
     with people.database.write() as connection:
         put_setting(connection, NAME_SETTING, name)
+    note("station named", folder=people.folder)
     return name
 
 
@@ -256,6 +258,7 @@ def revoke(station: str, people: People | None = None) -> KnownStation:
     rows = [replace(one, revoked=True) for one in known.values() if one.station == wanted]
     with people.database.write() as connection:
         put_stations(connection, StationKey.of(people.folder), rows)
+    note("station revoked", [wanted], people.folder)
     return rows[0]
 
 
@@ -281,6 +284,7 @@ def renew_key(people: People | None = None) -> str:
         if wrapped:
             people.put_wrapped(connection, wrapped)
         put_stations(connection, key, known.values())
+    note("key renewed", [key.station], people.folder)
     return recovery
 
 

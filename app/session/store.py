@@ -10,6 +10,7 @@ from typing import Final
 from app.core.messages import sentence
 from app.core.paths import sessions
 from app.session.admission import Admission, admissions, with_admission
+from app.session.audit import note
 from app.session.calibration_flag import CalibrationFlags
 from app.session.database import DatabaseError
 from app.session.errors import SessionError, SessionNotFoundError
@@ -132,6 +133,7 @@ def delete(folder: Path, session_id: str) -> Path:
         )
     with suppress(OSError):
         os.utime(sidecar(path))  # its time tells from now on when the record was deleted
+    note("attempt deleted", [path.stem])
     return _move(path, folder / TRASH, folder)
 
 
@@ -143,7 +145,9 @@ def restore(folder: Path, session_id: str) -> Path:
         SessionError: if it cannot be moved.
     """
     settled(folder)
-    return _move(find(folder / TRASH, session_id), folder, folder)
+    path = find(folder / TRASH, session_id)
+    note("attempt brought back", [path.stem])
+    return _move(path, folder, folder)
 
 
 def _sorted(folder: Path, kept_of: Callable[[Path], Cached]) -> list[Summary]:

@@ -1000,8 +1000,28 @@
             <translation type="unfinished">--student gilt für pdf; die Tabellen enthalten alle</translation>
         </message>
         <message>
+            <source>{identifier}: Moodle knows students by username, email or idnumber</source>
+            <translation type="unfinished">{identifier}: Moodle kennt Teilnehmer nach username, email oder idnumber</translation>
+        </message>
+        <message>
+            <source>--identifier and --feedback are for moodle, --grade for moodle and pdf</source>
+            <translation type="unfinished">--identifier und --feedback gelten für moodle, --grade für moodle und pdf</translation>
+        </message>
+        <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
             <translation type="unfinished">{attempts:#1 Versuch|# Versuche} von {students:#1 Teilnehmer|# Teilnehmern} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>nothing to do: give --out FILE, --queue, or both</source>
+            <translation type="unfinished">nichts zu tun: --out DATEI, --queue oder beides angeben</translation>
+        </message>
+        <message>
+            <source>{statements:#1 statement|# statements}{files:?, written to {files}|}</source>
+            <translation type="unfinished">{statements:#1 Aussage|# Aussagen}{files:?, geschrieben in {files}|}</translation>
+        </message>
+        <message>
+            <source>queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">Warteschlange: {new:#} neu, {voided:#} zurückgenommen, {waiting:#1 wartet|# warten} auf das Senden</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
@@ -6516,8 +6536,32 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">{pseudonym!r} sieht aus wie ein Schlüssel dieses Programms: Wählen Sie ein anderes Pseudonym</translation>
         </message>
         <message>
+            <source>{email!r} is no e-mail address: correct it</source>
+            <translation type="unfinished">{email!r} ist keine E-Mail-Adresse: bitte berichtigen</translation>
+        </message>
+        <message>
+            <source>the {kind} {identifier!r} is that of {holder!r} too: correct one of them</source>
+            <translation type="unfinished">{kind} {identifier!r} gehört auch {holder!r}: eine der beiden Zeilen berichtigen</translation>
+        </message>
+        <message>
             <source>{pseudonym!r} stands there twice: delete one row</source>
             <translation type="unfinished">{pseudonym!r} steht zweimal da: Löschen Sie eine Zeile</translation>
+        </message>
+        <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} enthält dasselbe wie eine andere: eine löschen</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">Zeile 1: das ist eine Tabelle von Moodle ohne Anmeldenamen und ID-Nummern, und der Bildschirm zeigt weder Namen noch E-Mail-Adressen: eine Spalte pseudonym hinzufügen, oder sie mit dem Anmeldenamen exportieren</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Überschrift braucht die Spalte pseudonym; Spalten sind {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">Zeile 1: die Spalte {column!r} ist nicht bekannt; Spalten sind {wanted}</translation>
         </message>
         <message>
             <source>the cameras see the needle again: the depth is measured</source>
@@ -15217,6 +15261,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alle Übungen</translation>
         </message>
         <message>
+            <source>Venue</source>
+            <translation type="unfinished">Ort</translation>
+        </message>
+        <message>
             <source>Everybody</source>
             <translation type="unfinished">Alle</translation>
         </message>
@@ -15456,8 +15504,60 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Bericht einer Gruppe</translation>
         </message>
         <message>
+            <source>Mark</source>
+            <translation type="unfinished">Note</translation>
+        </message>
+        <message>
+            <source>points of the best attempt, of 100</source>
+            <translation type="unfinished">Punkte des besten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>points of the first attempt, of 100</source>
+            <translation type="unfinished">Punkte des ersten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>points of the last attempt, of 100</source>
+            <translation type="unfinished">Punkte des letzten Versuchs, von 100</translation>
+        </message>
+        <message>
+            <source>mean of the points of the last {n} attempts, of 100</source>
+            <translation type="unfinished">Mittel der Punkte der letzten {n} Versuche, von 100</translation>
+        </message>
+        <message>
+            <source>{first} to {last}</source>
+            <translation type="unfinished">{first} bis {last}</translation>
+        </message>
+        <message>
+            <source>Attempts allowed</source>
+            <translation type="unfinished">Erlaubte Versuche</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Noch kein Versuch eines angemeldeten Teilnehmers.</translation>
+        </message>
+        <message>
+            <source>median</source>
+            <translation type="unfinished">Median</translation>
+        </message>
+        <message>
+            <source>✔ passed at least once. In brackets the attempts that count: scored, comparable, by a person, not declared void; – (2): two that do not count.</source>
+            <translation type="unfinished">✔ mindestens einmal bestanden. In Klammern die Versuche, die zählen: bewertet, vergleichbar, von einem Menschen, nicht für ungültig erklärt; – (2): zwei, die nicht zählen.</translation>
+        </message>
+        <message>
+            <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
+            <translation type="unfinished">Die Unterschriften gelten für alle {pages} Seiten: die Noten stehen auf den Seiten nach dieser.</translation>
+        </message>
+        <message>
+            <source>≈ the best is within the error of measurement of the mark.</source>
+            <translation type="unfinished">≈ der beste liegt im Messfehler der Bestehensgrenze.</translation>
+        </message>
+        <message>
+            <source>Place, date</source>
+            <translation type="unfinished">Ort, Datum</translation>
+        </message>
+        <message>
+            <source>Head of training</source>
+            <translation type="unfinished">Leitung der Ausbildung</translation>
         </message>
         <message>
             <source>Report of a student</source>
@@ -15476,16 +15576,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">bestanden</translation>
         </message>
         <message>
-            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">{students}, {exercises}, {attempts}: bewertet, vergleichbar, von einer Person, nicht für ungültig erklärt.</translation>
-        </message>
-        <message>
             <source>{n} of {m}</source>
             <translation type="unfinished">{n} von {m}</translation>
-        </message>
-        <message>
-            <source>≈: within the error of measurement of the mark</source>
-            <translation type="unfinished">≈: im Messfehler der Bestehensgrenze</translation>
         </message>
         <message>
             <source>Best</source>
@@ -18805,6 +18897,34 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>best of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>bester von {n} Versuch</numerusform>
+                <numerusform>bester von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>first of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>erster von {n} Versuch</numerusform>
+                <numerusform>erster von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>last of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>letzter von {n} Versuch</numerusform>
+                <numerusform>letzter von {n} Versuchen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>mean of the last {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>Mittel des letzten {n} Versuchs</numerusform>
+                <numerusform>Mittel der letzten {n} Versuche</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
                 <numerusform>keine DICOM-Serie in {listing_path}: {n} Datei übergangen ({first_path_name}: {first_reason})</numerusform>
@@ -18889,6 +19009,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch wartet darauf, gesendet zu werden.</numerusform>
+                <numerusform>{n} Versuche warten darauf, gesendet zu werden.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts wait to be sent: `acus store sync`</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch wartet darauf, gesendet zu werden: `acus store sync`</numerusform>
+                <numerusform>{n} Versuche warten darauf, gesendet zu werden: `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch {whose}</numerusform>
@@ -18907,13 +19041,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Kontur, die doppelt in der Datei steht, einmal gezählt</numerusform>
                 <numerusform>{n} Konturen, die doppelt in der Datei stehen, einmal gezählt</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} exercises</source>
-            <translation type="unfinished">
-                <numerusform>{n} Übung</numerusform>
-                <numerusform>{n} Übungen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18945,6 +19072,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} ausgelassen</numerusform>
+                <numerusform>{n} ausgelassen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} memberships {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} Mitgliedschaft {whose}</numerusform>
@@ -18956,6 +19090,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Name {whose}</numerusform>
                 <numerusform>{n} Namen {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} packets</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paket</numerusform>
+                <numerusform>{n} Pakete</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} Paar von Versuchen</numerusform>
+                <numerusform>{n} Paare von Versuchen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18994,10 +19142,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} students</source>
+            <source>{n} stations wait to be let in: Stations, Exchange now</source>
             <translation type="unfinished">
-                <numerusform>{n} Teilnehmer</numerusform>
-                <numerusform>{n} Teilnehmer</numerusform>
+                <numerusform>{n} Station wartet auf Einlass: Stationen, Jetzt austauschen</numerusform>
+                <numerusform>{n} Stationen warten auf Einlass: Stationen, Jetzt austauschen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19005,6 +19153,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} things sent</source>
+            <translation type="unfinished">
+                <numerusform>{n} Sache gesendet</numerusform>
+                <numerusform>{n} Sachen gesendet</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19863,6 +20018,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">ausgelassen: {line}</translation>
         </message>
         <message>
+            <source>{number:6} {time:25} {who:14} {what:22} {count:4} {about}</source>
+            <translation type="unfinished">{number:6} {time:25} {who:14} {what:22} {count:4} {about}</translation>
+        </message>
+        <message>
+            <source>nothing was done yet</source>
+            <translation type="unfinished">noch wurde nichts getan</translation>
+        </message>
+        <message>
+            <source>{wrong:?✖ not as they were written: {wrong}|}</source>
+            <translation type="unfinished">{wrong:?✖ nicht, wie sie geschrieben wurden: {wrong}|}</translation>
+        </message>
+        <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
             <translation type="unfinished">{source} ist abgeschnitten oder keine Datei von Acus: Holen Sie sie neu von ihrer Station</translation>
         </message>
@@ -19951,12 +20118,56 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Stationen werden zusammengeführt</translation>
         </message>
         <message>
+            <source>The database that the stations of a school share: postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite on a share. Empty: none.</source>
+            <translation type="unfinished">Die Datenbank, die sich die Stationen einer Schule teilen: postgresql+psycopg://Benutzer:Passwort@Rechner/Name oder sqlite:////Ordner/Datei.sqlite auf einer Freigabe. Leer: keine.</translation>
+        </message>
+        <message>
+            <source>Students and courses of this station go there</source>
+            <translation type="unfinished">Studierende und Kurse dieser Station gehen dorthin</translation>
+        </message>
+        <message>
+            <source>With their PINs, as hashes</source>
+            <translation type="unfinished">Mit ihren PINs, als Hashwerte</translation>
+        </message>
+        <message>
+            <source>The school's store</source>
+            <translation type="unfinished">Der Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>URL</source>
+            <translation type="unfinished">URL</translation>
+        </message>
+        <message>
+            <source>Exchanging with the school's store</source>
+            <translation type="unfinished">Austausch mit dem Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>Connecting to the school's store</source>
+            <translation type="unfinished">Verbinden mit dem Speicher der Schule</translation>
+        </message>
+        <message>
+            <source>School's store: up to date at {time}</source>
+            <translation type="unfinished">Speicher der Schule: auf dem Stand von {time}</translation>
+        </message>
+        <message>
+            <source>From other stations</source>
+            <translation type="unfinished">Von anderen Stationen</translation>
+        </message>
+        <message>
             <source>Let these stations in?</source>
             <translation type="unfinished">Diese Stationen zulassen?</translation>
         </message>
         <message>
             <source>Let them in</source>
             <translation type="unfinished">Zulassen</translation>
+        </message>
+        <message>
+            <source>Exchange with the school's store now</source>
+            <translation type="unfinished">Jetzt mit dem Speicher der Schule austauschen</translation>
+        </message>
+        <message>
+            <source>Connect to the school's store…</source>
+            <translation type="unfinished">Mit dem Speicher der Schule verbinden…</translation>
         </message>
         <message>
             <source>Write this station's results</source>
@@ -19997,6 +20208,234 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Files of stations (*.acus)</source>
             <translation type="unfinished">Dateien von Stationen (*.acus)</translation>
+        </message>
+        <message>
+            <source>{store:?the school's store is {store}|this station shares no store}</source>
+            <translation type="unfinished">{store:?der Speicher der Schule ist {store}|diese Station teilt keinen Speicher}</translation>
+        </message>
+        <message>
+            <source>{gives_course:?people and courses of this station go there|}</source>
+            <translation type="unfinished">{gives_course:?Personen und Kurse dieser Station gehen dorthin|}</translation>
+        </message>
+        <message>
+            <source>this station shares no store: `acus store connect URL` connects it</source>
+            <translation type="unfinished">diese Station teilt keinen Speicher: `acus store connect URL` verbindet sie</translation>
+        </message>
+        <message>
+            <source>{sent:#1 packet|# packets} sent; {attempts:#1 attempt|# attempts}, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses} came; {erased} erased</source>
+            <translation type="unfinished">{sent:#1 Paket|# Pakete} gesendet; {attempts:#1 Versuch|# Versuche}, {remarks:#1 Bemerkung|# Bemerkungen}, {people:#1 Person|# Personen}, {courses:#1 Kurs|# Kurse} gekommen; {erased} gelöscht</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✖ left out: {}</source>
+            <translation type="unfinished">✖ ausgelassen: {}</translation>
+        </message>
+        <message>
+            <source>of erased people taken out of the store</source>
+            <translation type="unfinished">gelöschter Personen aus dem Speicher genommen</translation>
+        </message>
+        <message>
+            <source>the school's store {name} has no room left: its administrator makes some; nothing is lost, it is sent once there is</source>
+            <translation type="unfinished">der Speicher der Schule {name} ist voll: seine Verwaltung schafft Platz; nichts ist verloren, es wird dann gesendet</translation>
+        </message>
+        <message>
+            <source>the school's store {name} may only be read by this user: its administrator gives the right to write; nothing is lost, it is sent then</source>
+            <translation type="unfinished">der Speicher der Schule {name} kann von diesem Benutzer nur gelesen werden: seine Verwaltung gibt das Recht zu schreiben; nichts ist verloren, es wird dann gesendet</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not know this user and password: give those of its administrator in the URL</source>
+            <translation type="unfinished">der Speicher der Schule {name} kennt diesen Benutzer und dieses Passwort nicht: die der Verwaltung in der URL angeben</translation>
+        </message>
+        <message>
+            <source>there is no such database at {name}: its administrator makes it (`createdb`)</source>
+            <translation type="unfinished">bei {name} gibt es diese Datenbank nicht: seine Verwaltung legt sie an (`createdb`)</translation>
+        </message>
+        <message>
+            <source>the school's store {name} takes longer than {seconds:g} s: this station goes on and tries again</source>
+            <translation type="unfinished">der Speicher der Schule {name} braucht länger als {seconds:g} s: diese Station macht weiter und versucht es wieder</translation>
+        </message>
+        <message>
+            <source>{name} is no school's store, or a damaged one: give the URL of an empty database, or bring it back from its backup</source>
+            <translation type="unfinished">{name} ist kein Speicher einer Schule oder ein beschädigter: die URL einer leeren Datenbank angeben oder ihn aus seiner Sicherung zurückholen</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">der Speicher der Schule {name} antwortet nicht: diese Station macht weiter und versucht es wieder ({reason})</translation>
+        </message>
+        <message>
+            <source>{url} is no place for objects: {reason}</source>
+            <translation type="unfinished">{url} ist kein Ort für Objekte: {reason}</translation>
+        </message>
+        <message>
+            <source>the object {digest} of the school's store is missing or damaged: its administrator brings it back from a backup; the rest was taken</source>
+            <translation type="unfinished">das Objekt {digest} des Speichers der Schule fehlt oder ist beschädigt: seine Verwaltung holt es aus einer Sicherung zurück; der Rest wurde übernommen</translation>
+        </message>
+        <message>
+            <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">die Objekte des Speichers der Schule sind nicht zu benutzen: diese Station macht weiter und versucht es wieder ({reason})</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{path} sagt nicht, wo der Speicher der Schule ist: diese Station mit `acus store connect URL` neu verbinden</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {reason}</source>
+            <translation type="unfinished">{path} ist nicht zu schreiben: {reason}</translation>
+        </message>
+        <message>
+            <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
+            <translation type="unfinished">die Dateien des Speichers der Schule {name} liegen anderswo: --objects angeben wie an den anderen Stationen</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder} for the school's store: make it, or look whether the share is there</source>
+            <translation type="unfinished">es gibt keinen Ordner {folder} für den Speicher der Schule: ihn anlegen oder nachsehen, ob die Freigabe da ist</translation>
+        </message>
+        <message>
+            <source>the school's store {name} lies where files cannot be locked, so that two stations would break it: put it into PostgreSQL, or on a share with locks</source>
+            <translation type="unfinished">der Speicher der Schule {name} liegt, wo Dateien nicht gesperrt werden können, so dass zwei Stationen ihn zerstören würden: in PostgreSQL legen oder auf eine Freigabe mit Sperren</translation>
+        </message>
+        <message>
+            <source>{url!r} is no URL of a school's store: give postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite</source>
+            <translation type="unfinished">{url!r} ist keine URL eines Speichers einer Schule: postgresql+psycopg://Benutzer:Passwort@Rechner/Name angeben oder sqlite:////Ordner/Datei.sqlite</translation>
+        </message>
+        <message>
+            <source>sending</source>
+            <translation type="unfinished">wird gesendet</translation>
+        </message>
+        <message>
+            <source>{name} is not sent: it was altered</source>
+            <translation type="unfinished">{name} wird nicht gesendet: der Versuch wurde verändert</translation>
+        </message>
+        <message>
+            <source>taking in</source>
+            <translation type="unfinished">wird übernommen</translation>
+        </message>
+        <message>
+            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">die Station {name} ist hier nicht bekannt: {fingerprint} mit `acus store stations` dort vergleichen, dann einlassen (`acus store sync --trust`)</translation>
+        </message>
+        <message>
+            <source>packet {place} of the school's store</source>
+            <translation type="unfinished">Paket {place} des Speichers der Schule</translation>
+        </message>
+        <message>
+            <source>the school's store {name} was made by a newer version of Acus (step {here}, this one knows {known}): use that version here too; this station goes on by itself</source>
+            <translation type="unfinished">der Speicher der Schule {name} stammt von einer neueren Version von Acus (Schritt {here}, diese kennt {known}): diese Version auch hier benutzen; die Station macht allein weiter</translation>
+        </message>
+        <message>
+            <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
+            <translation type="unfinished">{name} enthält Tabellen eines anderen Programms ({table}): dem Speicher der Schule eine eigene Datenbank geben</translation>
+        </message>
+        <message>
+            <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>
+            <translation type="unfinished">{rule!r} ist keine Regel für Noten: best, first, last nehmen, oder mean:3 für das Mittel der letzten drei</translation>
+        </message>
+        <message>
+            <source>no {kind} is known of {students}: give it by a roster with the column {kind}, or choose another identifier</source>
+            <translation type="unfinished">von {students} ist kein Eintrag {kind} bekannt: ihn mit einer Teilnehmerliste mit der Spalte {kind} angeben, oder eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>Moodle changes {identifiers} as it imports, for it begins with = + - or @: choose another identifier</source>
+            <translation type="unfinished">Moodle verändert {identifiers} beim Import, denn es beginnt mit = + - oder @: eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>{students} have the same {kind}, {identifier!r}: correct it by a roster, or choose another identifier</source>
+            <translation type="unfinished">{students} haben denselben Eintrag {kind}, {identifier!r}: ihn mit einer Teilnehmerliste berichtigen, oder eine andere Kennung wählen</translation>
+        </message>
+        <message>
+            <source>the best of several attempts lies above what a student usually does: the best of 5 equal attempts by {share:.1f} standard deviations; how much attempts vary here is not known yet ({pairs})</source>
+            <translation type="unfinished">der beste von mehreren Versuchen liegt über dem, was jemand gewöhnlich leistet: der beste von 5 gleich guten um {share:.1f} Standardabweichungen; wie stark Versuche hier schwanken, ist noch nicht bekannt ({pairs})</translation>
+        </message>
+        <message>
+            <source>attempts of one student vary by {sd:.1f} points from one to the next (standard deviation, {pairs})</source>
+            <translation type="unfinished">Versuche einer Person schwanken von einem zum nächsten um {sd:.1f} Punkte (Standardabweichung, {pairs})</translation>
+        </message>
+        <message>
+            <source>so the best of 5 equal attempts is expected {five:.1f} points above their mean, and these grades {mean:.1f} on average, up to {high:.1f} for {attempts} attempts: who tries more often is graded higher without being better</source>
+            <translation type="unfinished">so liegt der beste von 5 gleich guten Versuchen im Mittel {five:.1f} Punkte über ihrem Durchschnitt, und diese Noten im Schnitt {mean:.1f}, bis zu {high:.1f} bei {attempts} Versuchen: wer es öfter versucht, wird höher benotet, ohne besser zu sein</translation>
+        </message>
+        <message>
+            <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
+            <translation type="unfinished">so ist eine Note nach dieser Regel um {sd:.1f} Punkte unsicher, und sie steigt nicht durch Zufall mit der Zahl der Versuche</translation>
+        </message>
+        <message>
+            <source>the only attempt</source>
+            <translation type="unfinished">der einzige Versuch</translation>
+        </message>
+        <message>
+            <source>not passed yet</source>
+            <translation type="unfinished">noch nicht bestanden</translation>
+        </message>
+        <message>
+            <source>the instructor: {comment}</source>
+            <translation type="unfinished">der Kursleiter: {comment}</translation>
+        </message>
+        <message>
+            <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
+            <translation type="unfinished">{address!r} kann nicht am Anfang der Kennungen von Aussagen stehen: eine eigene Adresse angeben, etwa https://training.hospital.example</translation>
+        </message>
+        <message>
+            <source>{path} is damaged: move it away, and put the statements into the queue again</source>
+            <translation type="unfinished">{path} ist beschädigt: die Datei wegräumen und die Aussagen erneut in die Warteschlange stellen</translation>
+        </message>
+        <message>
+            <source>Report of the group</source>
+            <translation type="unfinished">Bericht der Gruppe</translation>
+        </message>
+        <message>
+            <source>Gradebook for Moodle</source>
+            <translation type="unfinished">Notenbuch für Moodle</translation>
+        </message>
+        <message>
+            <source>the best attempt</source>
+            <translation type="unfinished">der beste Versuch</translation>
+        </message>
+        <message>
+            <source>the first attempt</source>
+            <translation type="unfinished">der erste Versuch</translation>
+        </message>
+        <message>
+            <source>the last attempt</source>
+            <translation type="unfinished">der letzte Versuch</translation>
+        </message>
+        <message>
+            <source>the mean of the last attempts</source>
+            <translation type="unfinished">das Mittel der letzten Versuche</translation>
+        </message>
+        <message>
+            <source>A column of feedback too</source>
+            <translation type="unfinished">Auch eine Spalte mit Rückmeldung</translation>
+        </message>
+        <message>
+            <source>user name (else the pseudonym)</source>
+            <translation type="unfinished">Anmeldename (sonst das Pseudonym)</translation>
+        </message>
+        <message>
+            <source>e-mail address</source>
+            <translation type="unfinished">E-Mail-Adresse</translation>
+        </message>
+        <message>
+            <source>ID number</source>
+            <translation type="unfinished">ID-Nummer</translation>
+        </message>
+        <message>
+            <source>empty: a line to fill in by hand</source>
+            <translation type="unfinished">leer: eine Linie zum Ausfüllen von Hand</translation>
+        </message>
+        <message>
+            <source>A mark is</source>
+            <translation type="unfinished">Eine Note ist</translation>
+        </message>
+        <message>
+            <source>How many</source>
+            <translation type="unfinished">Wie viele</translation>
+        </message>
+        <message>
+            <source>Moodle knows students by</source>
+            <translation type="unfinished">Moodle kennt Teilnehmer nach</translation>
         </message>
         <message>
             <source>give one way to set the mark: --angoff FILE, --borderline FILE or --experienced GROUP</source>
@@ -20061,6 +20500,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the points in row {row}, column {column} are missing: leave that row or that column out, or complete it</source>
             <translation type="unfinished">die Punkte in Zeile {row}, Spalte {column} fehlen: Lassen Sie die Zeile oder die Spalte weg oder ergänzen Sie sie</translation>
+        </message>
+        <message>
+            <source>students with 2 attempts or more: {students}; the standard error of a score needs 2 such students at least: let them repeat the exercise</source>
+            <translation type="unfinished">Teilnehmer mit 2 Versuchen oder mehr: {students}; der Standardfehler einer Punktzahl braucht mindestens 2 davon: Lassen Sie die Übung wiederholen</translation>
         </message>
         <message>
             <source>the points repeat exactly and leave nothing to chance, with cells missing: take in more attempts, or a set in which every student has every exercise</source>
@@ -20129,10 +20572,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{student} has no attempt at {exercise} that counts, and {cells} such cells are empty in all: agreement and discrimination are of the {complete} students who have every exercise</source>
             <translation type="unfinished">{student} hat keinen Versuch an {exercise}, der zählt, und insgesamt sind {cells} solche Zellen leer: Übereinstimmung und Trennschärfe sind die der {complete} Teilnehmer, die jede Übung haben</translation>
-        </message>
-        <message>
-            <source>students with 2 attempts or more: {students}; the standard error of a score needs 2 such students at least: let them repeat the exercise</source>
-            <translation type="unfinished">Teilnehmer mit 2 Versuchen oder mehr: {students}; der Standardfehler einer Punktzahl braucht mindestens 2 davon: Lassen Sie die Übung wiederholen</translation>
         </message>
     </context>
 </TS>

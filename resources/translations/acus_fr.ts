@@ -1000,8 +1000,28 @@
             <translation type="unfinished">--student vaut pour pdf ; les tableaux contiennent tout le monde</translation>
         </message>
         <message>
+            <source>{identifier}: Moodle knows students by username, email or idnumber</source>
+            <translation type="unfinished">{identifier} : Moodle connaît les étudiants par username, email ou idnumber</translation>
+        </message>
+        <message>
+            <source>--identifier and --feedback are for moodle, --grade for moodle and pdf</source>
+            <translation type="unfinished">--identifier et --feedback valent pour moodle, --grade pour moodle et pdf</translation>
+        </message>
+        <message>
             <source>{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}</source>
             <translation type="unfinished">{attempts:#1 essai|# essais|0 essai} de {students:#1 étudiant|# étudiants|0 étudiant} dans {files}</translation>
+        </message>
+        <message>
+            <source>nothing to do: give --out FILE, --queue, or both</source>
+            <translation type="unfinished">rien à faire : donner --out FICHIER, --queue, ou les deux</translation>
+        </message>
+        <message>
+            <source>{statements:#1 statement|# statements}{files:?, written to {files}|}</source>
+            <translation type="unfinished">{statements:#1 déclaration|# déclarations}{files:?, dans {files}|}</translation>
+        </message>
+        <message>
+            <source>queue: {new:#} new, {voided:#} taken back, {waiting:#1 waits|# wait} to be sent</source>
+            <translation type="unfinished">file d’attente : {new:#} de plus, {voided:#} annulées, {waiting:#1 attend|# attendent} l’envoi</translation>
         </message>
         <message>
             <source>best {best:3.0f}, last {last:3.0f}, {trend}, {attempts}, {days:.1f} days ago</source>
@@ -6516,8 +6536,32 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">{pseudonym!r} ressemble à une clé de ce programme : choisissez un autre pseudonyme</translation>
         </message>
         <message>
+            <source>{email!r} is no e-mail address: correct it</source>
+            <translation type="unfinished">{email!r} n’est pas une adresse de courriel : à corriger</translation>
+        </message>
+        <message>
+            <source>the {kind} {identifier!r} is that of {holder!r} too: correct one of them</source>
+            <translation type="unfinished">{kind} {identifier!r} est aussi à {holder!r} : corriger l’une des deux lignes</translation>
+        </message>
+        <message>
             <source>{pseudonym!r} stands there twice: delete one row</source>
             <translation type="unfinished">{pseudonym!r} y figure deux fois : supprimez une ligne</translation>
+        </message>
+        <message>
+            <source>line 1: the column {column!r} holds what another one does: delete one</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} contient la même chose qu’une autre : en supprimer une</translation>
+        </message>
+        <message>
+            <source>line 1: this is a table of Moodle without user names and ID numbers, and screens show neither names nor e-mail addresses: add a column pseudonym, or export it with Username</source>
+            <translation type="unfinished">ligne 1 : c’est une table de Moodle sans noms d’utilisateur ni numéros d’identification, et l’écran ne montre ni noms ni adresses de courriel : ajouter une colonne pseudonym, ou l’exporter avec le nom d’utilisateur</translation>
+        </message>
+        <message>
+            <source>line 1: the heading needs the column pseudonym; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : l’en-tête doit avoir la colonne pseudonym ; les colonnes sont {wanted}</translation>
+        </message>
+        <message>
+            <source>line 1: column {column!r} is not known; columns are {wanted}</source>
+            <translation type="unfinished">ligne 1 : la colonne {column!r} n’est pas connue ; les colonnes sont {wanted}</translation>
         </message>
         <message>
             <source>the cameras see the needle again: the depth is measured</source>
@@ -15217,6 +15261,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tous les exercices</translation>
         </message>
         <message>
+            <source>Venue</source>
+            <translation type="unfinished">Lieu</translation>
+        </message>
+        <message>
             <source>Everybody</source>
             <translation type="unfinished">Tous</translation>
         </message>
@@ -15456,8 +15504,60 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rapport d’un groupe</translation>
         </message>
         <message>
+            <source>Mark</source>
+            <translation type="unfinished">Note</translation>
+        </message>
+        <message>
+            <source>points of the best attempt, of 100</source>
+            <translation type="unfinished">points du meilleur essai, sur 100</translation>
+        </message>
+        <message>
+            <source>points of the first attempt, of 100</source>
+            <translation type="unfinished">points du premier essai, sur 100</translation>
+        </message>
+        <message>
+            <source>points of the last attempt, of 100</source>
+            <translation type="unfinished">points du dernier essai, sur 100</translation>
+        </message>
+        <message>
+            <source>mean of the points of the last {n} attempts, of 100</source>
+            <translation type="unfinished">moyenne des points des {n} derniers essais, sur 100</translation>
+        </message>
+        <message>
+            <source>{first} to {last}</source>
+            <translation type="unfinished">{first} au {last}</translation>
+        </message>
+        <message>
+            <source>Attempts allowed</source>
+            <translation type="unfinished">Essais permis</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Pas encore d’essai d’un étudiant connecté.</translation>
+        </message>
+        <message>
+            <source>median</source>
+            <translation type="unfinished">médiane</translation>
+        </message>
+        <message>
+            <source>✔ passed at least once. In brackets the attempts that count: scored, comparable, by a person, not declared void; – (2): two that do not count.</source>
+            <translation type="unfinished">✔ réussi au moins une fois. Entre parenthèses les essais qui comptent : notés, comparables, faits par une personne, non déclarés nuls ; – (2) : deux qui ne comptent pas.</translation>
+        </message>
+        <message>
+            <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
+            <translation type="unfinished">Les signatures valent pour les {pages} pages : les notes sont sur celles qui suivent.</translation>
+        </message>
+        <message>
+            <source>≈ the best is within the error of measurement of the mark.</source>
+            <translation type="unfinished">≈ le meilleur est dans l’erreur de mesure du seuil.</translation>
+        </message>
+        <message>
+            <source>Place, date</source>
+            <translation type="unfinished">Lieu, date</translation>
+        </message>
+        <message>
+            <source>Head of training</source>
+            <translation type="unfinished">Responsable de la formation</translation>
         </message>
         <message>
             <source>Report of a student</source>
@@ -15476,16 +15576,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">réussi</translation>
         </message>
         <message>
-            <source>{students}, {exercises}, {attempts}: scored, comparable, by a person, not declared void.</source>
-            <translation type="unfinished">{students}, {exercises}, {attempts} : notés, comparables, par une personne, non déclarés nuls.</translation>
-        </message>
-        <message>
             <source>{n} of {m}</source>
             <translation type="unfinished">{n} sur {m}</translation>
-        </message>
-        <message>
-            <source>≈: within the error of measurement of the mark</source>
-            <translation type="unfinished">≈ : dans l’erreur de mesure du seuil</translation>
         </message>
         <message>
             <source>Best</source>
@@ -18805,6 +18897,34 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>best of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>meilleur de {n} essai</numerusform>
+                <numerusform>meilleur de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>first of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>premier de {n} essai</numerusform>
+                <numerusform>premier de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>last of {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>dernier de {n} essai</numerusform>
+                <numerusform>dernier de {n} essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>mean of the last {n} attempts</source>
+            <translation type="unfinished">
+                <numerusform>moyenne du dernier {n} essai</numerusform>
+                <numerusform>moyenne des {n} derniers essais</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>no DICOM series in {listing_path}: {n} files ignored ({first_path_name}: {first_reason})</source>
             <translation type="unfinished">
                 <numerusform>aucune série DICOM dans {listing_path} : {n} fichier ignoré ({first_path_name} : {first_reason})</numerusform>
@@ -18889,6 +19009,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative attend d’être envoyée.</numerusform>
+                <numerusform>{n} tentatives attendent d’être envoyées.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts wait to be sent: `acus store sync`</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative attend d’être envoyée : `acus store sync`</numerusform>
+                <numerusform>{n} tentatives attendent d’être envoyées : `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} essai {whose}</numerusform>
@@ -18907,13 +19041,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} contour présent deux fois dans le fichier, compté une fois</numerusform>
                 <numerusform>{n} contours présents deux fois dans le fichier, comptés une fois</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>{n} exercises</source>
-            <translation type="unfinished">
-                <numerusform>{n} exercice</numerusform>
-                <numerusform>{n} exercices</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18945,6 +19072,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} left out</source>
+            <translation type="unfinished">
+                <numerusform>{n} écarté</numerusform>
+                <numerusform>{n} écartés</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} memberships {whose}</source>
             <translation type="unfinished">
                 <numerusform>{n} appartenance {whose}</numerusform>
@@ -18956,6 +19090,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} nom {whose}</numerusform>
                 <numerusform>{n} noms {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} packets</source>
+            <translation type="unfinished">
+                <numerusform>{n} paquet</numerusform>
+                <numerusform>{n} paquets</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} pairs of attempts</source>
+            <translation type="unfinished">
+                <numerusform>{n} paire d’essais</numerusform>
+                <numerusform>{n} paires d’essais</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -18994,10 +19142,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} students</source>
+            <source>{n} stations wait to be let in: Stations, Exchange now</source>
             <translation type="unfinished">
-                <numerusform>{n} étudiant</numerusform>
-                <numerusform>{n} étudiants</numerusform>
+                <numerusform>{n} poste attend d’être admis : Postes, Échanger maintenant</numerusform>
+                <numerusform>{n} postes attendent d’être admis : Postes, Échanger maintenant</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19005,6 +19153,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} étudiant {whose}</numerusform>
                 <numerusform>{n} étudiants {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} things sent</source>
+            <translation type="unfinished">
+                <numerusform>{n} élément envoyé</numerusform>
+                <numerusform>{n} éléments envoyés</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19863,6 +20018,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">omis : {line}</translation>
         </message>
         <message>
+            <source>{number:6} {time:25} {who:14} {what:22} {count:4} {about}</source>
+            <translation type="unfinished">{number:6} {time:25} {who:14} {what:22} {count:4} {about}</translation>
+        </message>
+        <message>
+            <source>nothing was done yet</source>
+            <translation type="unfinished">rien n’a encore été fait</translation>
+        </message>
+        <message>
+            <source>{wrong:?✖ not as they were written: {wrong}|}</source>
+            <translation type="unfinished">{wrong:?✖ pas telles qu’elles furent écrites : {wrong}|}</translation>
+        </message>
+        <message>
             <source>{source} is cut or no file of Acus: fetch it anew from its station</source>
             <translation type="unfinished">{source} est tronqué ou n’est pas un fichier d’Acus : reprenez-le sur son poste</translation>
         </message>
@@ -19951,12 +20118,56 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Réunion des postes</translation>
         </message>
         <message>
+            <source>The database that the stations of a school share: postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite on a share. Empty: none.</source>
+            <translation type="unfinished">La base de données que partagent les postes d’une école : postgresql+psycopg://utilisateur:motdepasse@hôte/nom, ou sqlite:////dossier/fichier.sqlite sur un partage. Vide : aucune.</translation>
+        </message>
+        <message>
+            <source>Students and courses of this station go there</source>
+            <translation type="unfinished">Les étudiants et les cours de ce poste y vont</translation>
+        </message>
+        <message>
+            <source>With their PINs, as hashes</source>
+            <translation type="unfinished">Avec leurs codes PIN, hachés</translation>
+        </message>
+        <message>
+            <source>The school's store</source>
+            <translation type="unfinished">La base de l’école</translation>
+        </message>
+        <message>
+            <source>URL</source>
+            <translation type="unfinished">URL</translation>
+        </message>
+        <message>
+            <source>Exchanging with the school's store</source>
+            <translation type="unfinished">Échange avec la base de l’école</translation>
+        </message>
+        <message>
+            <source>Connecting to the school's store</source>
+            <translation type="unfinished">Connexion à la base de l’école</translation>
+        </message>
+        <message>
+            <source>School's store: up to date at {time}</source>
+            <translation type="unfinished">Base de l’école : à jour à {time}</translation>
+        </message>
+        <message>
+            <source>From other stations</source>
+            <translation type="unfinished">D’autres postes</translation>
+        </message>
+        <message>
             <source>Let these stations in?</source>
             <translation type="unfinished">Admettre ces postes ?</translation>
         </message>
         <message>
             <source>Let them in</source>
             <translation type="unfinished">Admettre</translation>
+        </message>
+        <message>
+            <source>Exchange with the school's store now</source>
+            <translation type="unfinished">Échanger maintenant avec la base de l’école</translation>
+        </message>
+        <message>
+            <source>Connect to the school's store…</source>
+            <translation type="unfinished">Se connecter à la base de l’école…</translation>
         </message>
         <message>
             <source>Write this station's results</source>
@@ -19997,6 +20208,234 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Files of stations (*.acus)</source>
             <translation type="unfinished">Fichiers de postes (*.acus)</translation>
+        </message>
+        <message>
+            <source>{store:?the school's store is {store}|this station shares no store}</source>
+            <translation type="unfinished">{store:?la base de l’école est {store}|ce poste ne partage aucune base}</translation>
+        </message>
+        <message>
+            <source>{gives_course:?people and courses of this station go there|}</source>
+            <translation type="unfinished">{gives_course:?les personnes et les cours de ce poste y vont|}</translation>
+        </message>
+        <message>
+            <source>this station shares no store: `acus store connect URL` connects it</source>
+            <translation type="unfinished">ce poste ne partage aucune base : `acus store connect URL` le connecte</translation>
+        </message>
+        <message>
+            <source>{sent:#1 packet|# packets} sent; {attempts:#1 attempt|# attempts}, {remarks:#1 remark|# remarks}, {people:#1 student|# students}, {courses:#1 course|# courses} came; {erased} erased</source>
+            <translation type="unfinished">{sent:#1 paquet envoyé|# paquets envoyés} ; {attempts:#1 tentative|# tentatives}, {remarks:#1 remarque|# remarques}, {people:#1 étudiant|# étudiants}, {courses:#1 cours|# cours} reçus ; {erased} effacés</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✖ left out: {}</source>
+            <translation type="unfinished">✖ écarté : {}</translation>
+        </message>
+        <message>
+            <source>of erased people taken out of the store</source>
+            <translation type="unfinished">de personnes effacées retirés de la base</translation>
+        </message>
+        <message>
+            <source>the school's store {name} has no room left: its administrator makes some; nothing is lost, it is sent once there is</source>
+            <translation type="unfinished">la base de l’école {name} est pleine : son administrateur fait de la place ; rien n’est perdu, l’envoi suivra</translation>
+        </message>
+        <message>
+            <source>the school's store {name} may only be read by this user: its administrator gives the right to write; nothing is lost, it is sent then</source>
+            <translation type="unfinished">la base de l’école {name} ne peut qu’être lue par cet utilisateur : son administrateur donne le droit d’écrire ; rien n’est perdu, l’envoi suivra</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not know this user and password: give those of its administrator in the URL</source>
+            <translation type="unfinished">la base de l’école {name} ne connaît ni cet utilisateur ni ce mot de passe : donnez dans l’URL ceux de son administrateur</translation>
+        </message>
+        <message>
+            <source>there is no such database at {name}: its administrator makes it (`createdb`)</source>
+            <translation type="unfinished">il n’y a pas une telle base à {name} : son administrateur la crée (`createdb`)</translation>
+        </message>
+        <message>
+            <source>the school's store {name} takes longer than {seconds:g} s: this station goes on and tries again</source>
+            <translation type="unfinished">la base de l’école {name} met plus de {seconds:g} s : ce poste continue et réessaie</translation>
+        </message>
+        <message>
+            <source>{name} is no school's store, or a damaged one: give the URL of an empty database, or bring it back from its backup</source>
+            <translation type="unfinished">{name} n’est pas la base d’une école, ou elle est endommagée : donnez l’URL d’une base vide, ou rétablissez-la depuis sa sauvegarde</translation>
+        </message>
+        <message>
+            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">la base de l’école {name} ne répond pas : ce poste continue et réessaie ({reason})</translation>
+        </message>
+        <message>
+            <source>{url} is no place for objects: {reason}</source>
+            <translation type="unfinished">{url} n’est pas un lieu pour des objets : {reason}</translation>
+        </message>
+        <message>
+            <source>the object {digest} of the school's store is missing or damaged: its administrator brings it back from a backup; the rest was taken</source>
+            <translation type="unfinished">l’objet {digest} de la base de l’école manque ou est endommagé : son administrateur le rétablit depuis une sauvegarde ; le reste a été pris</translation>
+        </message>
+        <message>
+            <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
+            <translation type="unfinished">les objets de la base de l’école sont inutilisables : ce poste continue et réessaie ({reason})</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{path} ne dit pas où est la base de l’école : reconnectez ce poste avec `acus store connect URL`</translation>
+        </message>
+        <message>
+            <source>cannot write {path}: {reason}</source>
+            <translation type="unfinished">impossible d’écrire {path} : {reason}</translation>
+        </message>
+        <message>
+            <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
+            <translation type="unfinished">les fichiers de la base de l’école {name} sont ailleurs : donnez --objects comme sur les autres postes</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder} for the school's store: make it, or look whether the share is there</source>
+            <translation type="unfinished">il n’y a pas de dossier {folder} pour la base de l’école : créez-le, ou vérifiez que le partage est là</translation>
+        </message>
+        <message>
+            <source>the school's store {name} lies where files cannot be locked, so that two stations would break it: put it into PostgreSQL, or on a share with locks</source>
+            <translation type="unfinished">la base de l’école {name} est là où les fichiers ne peuvent être verrouillés, deux postes la casseraient : mettez-la dans PostgreSQL, ou sur un partage avec verrous</translation>
+        </message>
+        <message>
+            <source>{url!r} is no URL of a school's store: give postgresql+psycopg://user:password@host/name, or sqlite:////folder/file.sqlite</source>
+            <translation type="unfinished">{url!r} n’est pas l’URL de la base d’une école : donnez postgresql+psycopg://utilisateur:motdepasse@hôte/nom, ou sqlite:////dossier/fichier.sqlite</translation>
+        </message>
+        <message>
+            <source>sending</source>
+            <translation type="unfinished">envoi</translation>
+        </message>
+        <message>
+            <source>{name} is not sent: it was altered</source>
+            <translation type="unfinished">{name} n’est pas envoyée : elle a été modifiée</translation>
+        </message>
+        <message>
+            <source>taking in</source>
+            <translation type="unfinished">réception</translation>
+        </message>
+        <message>
+            <source>the station {name} is not known here: compare {fingerprint} with `acus store stations` there, then let it in (`acus store sync --trust`)</source>
+            <translation type="unfinished">le poste {name} n’est pas connu ici : comparez {fingerprint} avec `acus store stations` là-bas, puis admettez-le (`acus store sync --trust`)</translation>
+        </message>
+        <message>
+            <source>packet {place} of the school's store</source>
+            <translation type="unfinished">paquet {place} de la base de l’école</translation>
+        </message>
+        <message>
+            <source>the school's store {name} was made by a newer version of Acus (step {here}, this one knows {known}): use that version here too; this station goes on by itself</source>
+            <translation type="unfinished">la base de l’école {name} a été faite par une version plus récente d’Acus (étape {here}, celle-ci connaît {known}) : utilisez cette version ici aussi ; ce poste continue seul</translation>
+        </message>
+        <message>
+            <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
+            <translation type="unfinished">{name} contient les tables d’un autre programme ({table}) : donnez à la base de l’école une base à elle</translation>
+        </message>
+        <message>
+            <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>
+            <translation type="unfinished">{rule!r} n’est pas une règle de notation : prendre best, first, last, ou mean:3 pour la moyenne des trois derniers</translation>
+        </message>
+        <message>
+            <source>no {kind} is known of {students}: give it by a roster with the column {kind}, or choose another identifier</source>
+            <translation type="unfinished">aucun champ {kind} connu pour {students} : le donner par une liste avec la colonne {kind}, ou choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>Moodle changes {identifiers} as it imports, for it begins with = + - or @: choose another identifier</source>
+            <translation type="unfinished">Moodle modifie {identifiers} à l’importation, car le début est = + - ou @ : choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>{students} have the same {kind}, {identifier!r}: correct it by a roster, or choose another identifier</source>
+            <translation type="unfinished">{students} ont le même champ {kind}, {identifier!r} : le corriger par une liste, ou choisir un autre identifiant</translation>
+        </message>
+        <message>
+            <source>the best of several attempts lies above what a student usually does: the best of 5 equal attempts by {share:.1f} standard deviations; how much attempts vary here is not known yet ({pairs})</source>
+            <translation type="unfinished">le meilleur de plusieurs essais dépasse ce qu’un étudiant fait d’ordinaire : le meilleur de 5 essais égaux de {share:.1f} écarts-types ; combien les essais varient ici n’est pas encore connu ({pairs})</translation>
+        </message>
+        <message>
+            <source>attempts of one student vary by {sd:.1f} points from one to the next (standard deviation, {pairs})</source>
+            <translation type="unfinished">les essais d’un étudiant varient de {sd:.1f} points d’un essai au suivant (écart-type, {pairs})</translation>
+        </message>
+        <message>
+            <source>so the best of 5 equal attempts is expected {five:.1f} points above their mean, and these grades {mean:.1f} on average, up to {high:.1f} for {attempts} attempts: who tries more often is graded higher without being better</source>
+            <translation type="unfinished">le meilleur de 5 essais égaux est donc attendu {five:.1f} points au-dessus de leur moyenne, et ces notes {mean:.1f} en moyenne, jusqu’à {high:.1f} pour {attempts} essais : qui essaie plus souvent est noté plus haut sans être meilleur</translation>
+        </message>
+        <message>
+            <source>so a grade by this rule is uncertain by {sd:.1f} points, and does not rise with the number of attempts by chance</source>
+            <translation type="unfinished">une note selon cette règle est donc incertaine de {sd:.1f} points, et ne monte pas par hasard avec le nombre d’essais</translation>
+        </message>
+        <message>
+            <source>the only attempt</source>
+            <translation type="unfinished">l’unique essai</translation>
+        </message>
+        <message>
+            <source>not passed yet</source>
+            <translation type="unfinished">pas encore réussi</translation>
+        </message>
+        <message>
+            <source>the instructor: {comment}</source>
+            <translation type="unfinished">le formateur : {comment}</translation>
+        </message>
+        <message>
+            <source>{address!r} cannot begin the ids of statements: give an address that you own, such as https://training.hospital.example</source>
+            <translation type="unfinished">{address!r} ne peut pas commencer les identifiants des déclarations : donner une adresse qui vous appartient, comme https://training.hospital.example</translation>
+        </message>
+        <message>
+            <source>{path} is damaged: move it away, and put the statements into the queue again</source>
+            <translation type="unfinished">{path} est endommagé : le retirer, et remettre les déclarations dans la file d’attente</translation>
+        </message>
+        <message>
+            <source>Report of the group</source>
+            <translation type="unfinished">Rapport du groupe</translation>
+        </message>
+        <message>
+            <source>Gradebook for Moodle</source>
+            <translation type="unfinished">Carnet de notes pour Moodle</translation>
+        </message>
+        <message>
+            <source>the best attempt</source>
+            <translation type="unfinished">le meilleur essai</translation>
+        </message>
+        <message>
+            <source>the first attempt</source>
+            <translation type="unfinished">le premier essai</translation>
+        </message>
+        <message>
+            <source>the last attempt</source>
+            <translation type="unfinished">le dernier essai</translation>
+        </message>
+        <message>
+            <source>the mean of the last attempts</source>
+            <translation type="unfinished">la moyenne des derniers essais</translation>
+        </message>
+        <message>
+            <source>A column of feedback too</source>
+            <translation type="unfinished">Avec une colonne de commentaires</translation>
+        </message>
+        <message>
+            <source>user name (else the pseudonym)</source>
+            <translation type="unfinished">nom d’utilisateur (sinon le pseudonyme)</translation>
+        </message>
+        <message>
+            <source>e-mail address</source>
+            <translation type="unfinished">adresse de courriel</translation>
+        </message>
+        <message>
+            <source>ID number</source>
+            <translation type="unfinished">numéro d’identification</translation>
+        </message>
+        <message>
+            <source>empty: a line to fill in by hand</source>
+            <translation type="unfinished">vide : une ligne à remplir à la main</translation>
+        </message>
+        <message>
+            <source>A mark is</source>
+            <translation type="unfinished">Une note est</translation>
+        </message>
+        <message>
+            <source>How many</source>
+            <translation type="unfinished">Combien</translation>
+        </message>
+        <message>
+            <source>Moodle knows students by</source>
+            <translation type="unfinished">Moodle connaît les étudiants par</translation>
         </message>
         <message>
             <source>give one way to set the mark: --angoff FILE, --borderline FILE or --experienced GROUP</source>
@@ -20061,6 +20500,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>the points in row {row}, column {column} are missing: leave that row or that column out, or complete it</source>
             <translation type="unfinished">les points de la ligne {row}, colonne {column} manquent : supprimez cette ligne ou cette colonne, ou complétez-la</translation>
+        </message>
+        <message>
+            <source>students with 2 attempts or more: {students}; the standard error of a score needs 2 such students at least: let them repeat the exercise</source>
+            <translation type="unfinished">étudiants avec 2 essais ou plus : {students} ; l’erreur type d’un score en demande au moins 2 : faites répéter l’exercice</translation>
         </message>
         <message>
             <source>the points repeat exactly and leave nothing to chance, with cells missing: take in more attempts, or a set in which every student has every exercise</source>
@@ -20129,10 +20572,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{student} has no attempt at {exercise} that counts, and {cells} such cells are empty in all: agreement and discrimination are of the {complete} students who have every exercise</source>
             <translation type="unfinished">{student} n’a aucun essai à {exercise} qui compte, et {cells} cellules de ce genre sont vides en tout : accord et discrimination sont ceux des {complete} étudiants qui ont chaque exercice</translation>
-        </message>
-        <message>
-            <source>students with 2 attempts or more: {students}; the standard error of a score needs 2 such students at least: let them repeat the exercise</source>
-            <translation type="unfinished">étudiants avec 2 essais ou plus : {students} ; l’erreur type d’un score en demande au moins 2 : faites répéter l’exercice</translation>
         </message>
     </context>
 </TS>

@@ -265,6 +265,7 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("results", "curve", "Ada", "liver-01"),
         ("results", "reliability"),
         ("results", "export", "tidy", "--out", out),
+        ("results", "xapi", "--home", "https://x.example", "--out", out),
         ("exercise", "new", "Mine", "--out", out),
         ("exercise", "pack", "first-insertion", "--out", out),
         ("exercise", "unpack", out),
@@ -285,6 +286,9 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("store", "results", "--out", out),
         ("store", "station", "--out", out),
         ("store", "gather", out),
+        ("store", "connect", "sqlite:///out.sqlite"),
+        ("store", "sync"),
+        ("store", "audit"),
     ]
     for words in doors:
         assert "a question was not answered" in acus(*words, code=2), words

@@ -29,8 +29,8 @@ NEEDS_MORE = {
     "transform export", "transform show", "urdf import", "camera test", "library remove",
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
-    "results export", "results reliability", "session delete", "session restore", "store gather",
-    "store restore", "store revoke",
+    "results export", "results reliability", "results xapi", "session delete",
+    "session restore", "store gather", "store restore", "store revoke", "store sync",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
@@ -121,7 +121,9 @@ EXAMPLES = {
     "results board": (),
     "session export": ("--out", "all.csv"),
     "session list": (),
+    "store audit": (),
     "store backup": ("--out", "all.acusbackup"),
+    "store connect": ("sqlite:///school.sqlite",),
     "store empty-trash": (),
     "store rebuild": (),
     "store renew": (),

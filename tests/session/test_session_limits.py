@@ -3,11 +3,11 @@
 from itertools import permutations
 
 import pytest
-from app.session.said import CountedAttempt
 
 from app.session.course import Course, CourseItem
 from app.session.limits import beyond_limits
 from app.session.people import Person
+from app.session.station_results import CountedAttempt
 
 ADA = Person("p-000000000001", "Ada", ("A",))
 

@@ -8,7 +8,7 @@ from types import MappingProxyType
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
+from PySide6.QtWidgets import QComboBox, QFileDialog, QLineEdit, QPlainTextEdit
 
 from app.exercises.library import load_exercise
 from app.scoring.conditions import Conditions
@@ -542,6 +542,58 @@ def test_reports_of_the_group_and_of_the_student_chosen_are_written(
     assert settle(lambda: (tmp_path / "group.pdf").exists() and (tmp_path / "ada.pdf").exists())
     for name in ("group.pdf", "ada.pdf"):
         assert (tmp_path / name).read_bytes().startswith(b"%PDF")
+
+
+def test_a_gradebook_is_asked_for_by_identifier_and_rule_and_says_what_chance_does(
+    window, feature, settle, tmp_path, monkeypatch
+):
+    person, _ = People().add(RosterLine("Ada", accounts={"email": "ada@x.example"}))
+    People().add(RosterLine("Bob"))
+    folder = feature.context.services.sessions()
+    for number in range(12):
+        record(folder, f"a{number:02d}", person.key, 60.0 + 10.0 * (number % 2))
+    feature.show()
+    board = feature.page.board
+    settle(lambda: board.board is not None and bool(board.board.items))
+    feature.choose_export("moodle")
+    form = feature.dialog
+    assert form.place.isHidden()
+    assert "who tries more often is graded higher" in form.note.text()
+    form.rule.setCurrentIndex(form.rule.findData("mean"))
+    assert "does not rise with the number of attempts" in form.note.text()
+    form.identifier.setCurrentIndex(form.identifier.findData("email"))
+    assert not form.save()
+    assert "no email is known of Bob" in form.note.text()
+    form.identifier.setCurrentIndex(form.identifier.findData("username"))
+    form.feedback.setChecked(True)
+    path = tmp_path / "grades.csv"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    assert form.save()
+    assert settle(path.exists)
+    heading, ada, bob = path.read_text(encoding="utf-8-sig").splitlines()
+    title = load_exercise("first-insertion").title
+    assert heading == f'username,"{title}, v1","{title}, v1 (Feedback)"'
+    assert ada == "Ada,66.67,mean of the last 3 attempts; passed"
+    assert bob == "Bob,,"
+
+
+def test_the_place_of_a_report_is_asked_for_and_offers_the_station_s_name(
+    window, feature, settle, tmp_path, monkeypatch
+):
+    set_name("Theatre 2")
+    person, _ = People().add(RosterLine("Ada"))
+    record(feature.context.services.sessions(), "a", person.key, 72.0)
+    feature.show()
+    board = feature.page.board
+    settle(lambda: board.board is not None and bool(board.board.items))
+    feature.choose_export(GROUP_PDF)
+    form = feature.dialog
+    assert form.place.text() == "Theatre 2"
+    assert form.identifier.isHidden()
+    path = tmp_path / "group.pdf"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    assert form.save()
+    assert settle(path.exists)
 
 
 def test_results_of_a_station_are_written_and_brought_together_in_the_window(

@@ -8,14 +8,20 @@ import pytest
 
 pytest.importorskip("PySide6")
 
+from PySide6.QtCore import QLocale
+
+from app.core.disclaimer import DISCLAIMER
+from app.core.progress import Cancelled, Progress
+from app.exchange.moodle import GradeRule
 from app.exchange.results import Results
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.session.board import progress_board
 from app.session.course import CourseItem
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
-from app.views.people import results_report
-from app.views.people.results_report import group_report, student_report
+from app.views.people.group_report import ReportFacts, group_report, in_order
+from app.views.people.report_pages import ReportPages
+from app.views.people.results_report import student_report
 
 NOW = datetime.datetime(2026, 11, 23, 12, 0, tzinfo=datetime.UTC)
 
@@ -58,19 +64,19 @@ def results_of(students, exercises, attempts, names=None):
 def drawn(monkeypatch, application):
     """Every text that is drawn on the last pass, page by page."""
     pages = {}
-    write, paragraph = results_report._Sheet.text, results_report._Sheet.paragraph
+    write, paragraph = ReportPages.text, ReportPages.paragraph
 
     def text(sheet, x, words, *given, **more):
         pages.setdefault((sheet.pages, sheet.page), []).append(words)
-        assert 0.0 < sheet.y < results_report.HEIGHT
+        assert 0.0 < sheet.y < sheet.height
         return write(sheet, x, words, *given, **more)
 
     def lines(sheet, words, *given, **more):
         pages.setdefault((sheet.pages, sheet.page), []).append(words)
         return paragraph(sheet, words, *given, **more)
 
-    monkeypatch.setattr(results_report._Sheet, "text", text)
-    monkeypatch.setattr(results_report._Sheet, "paragraph", lines)
+    monkeypatch.setattr(ReportPages, "text", text)
+    monkeypatch.setattr(ReportPages, "paragraph", lines)
 
     def last():
         most = max(count for count, _ in pages)
@@ -83,17 +89,91 @@ def pages_of(data):
     return len(re.findall(rb"/Type /Page\b", data))
 
 
-def test_everybody_stands_in_the_report_of_a_group_and_pages_are_numbered(drawn):
-    data = group_report(results_of(60, 8, 3), {"exercise-0": "First"}, "Autumn · A", NOW)
+def facts(**given):
+    return ReportFacts(**({"course": "Autumn", "group": "A", "now": NOW} | given))
+
+
+def test_thirty_students_and_twelve_exercises_have_a_cover_to_sign_and_one_page_of_marks(drawn):
+    titles = {f"exercise-{k}": f"Title of {k}" for k in range(12)}
+    data = group_report(results_of(30, 12, 3), titles, facts(place="Basel, Theatre 2"))
     assert data.startswith(b"%PDF")
-    shown = drawn()
-    assert pages_of(data) == len(shown) > 2
-    words = [one for page in shown for one in page]
-    assert all(words.count(f"student {k}") == 2 for k in range(60))  # two blocks of columns
-    assert words.count("54 / 54 (3)") == 60 * 8 - 1
-    assert "54 / 54 (2)" in words  # one is declared void
-    assert [f"page {n} of {len(shown)}" in page for n, page in enumerate(shown, 1)]
-    assert "2026-11-23 12:00" in "".join(words)
+    cover, marks = drawn()
+    assert pages_of(data) == 2
+    for words in (
+        *("Autumn · A", "Basel, Theatre 2", "2026-10-01 to 2026-10-03", "30", "12"),
+        *("points of the best attempt, of 100", "0 of 30", "Title of 11"),
+        *("Place, date", "Instructor", "Head of training", "page 1 of 2"),
+    ):
+        assert words in cover, words
+    assert "2026-11-23 12:00" in "".join(cover)
+    assert all(marks.count(f"student {k}") == 1 for k in range(30))
+    assert marks.count("54") == 30 * 12 + 12  # marks, and the median of each exercise
+    assert marks.count("(3)") == 30 * 12 - 1
+    assert "(2)" in marks  # one is declared void
+    assert marks.count("0 of 12") == 30
+    assert "page 2 of 2" in marks
+
+
+def test_heads_stand_on_every_page_of_a_larger_group_and_all_are_there_once_a_block(drawn):
+    group_report(results_of(70, 15, 2), {"exercise-0": "First"}, facts())
+    pages = drawn()
+    words = [word for page in pages for word in page]
+    assert all(words.count(f"student {k}") == 2 for k in range(70))  # two blocks of columns
+    with_marks = [page for page in pages if "(2)" in page]
+    assert len(with_marks) == 6
+    assert all("Student" in page and "Autumn · A" in page for page in with_marks)
+    assert [page.count("1") + page.count("13") for page in with_marks] == [1] * 6
+    assert all(f"page {n} of {len(pages)}" in page for n, page in enumerate(pages, 1))
+
+
+def test_the_disclaimer_stands_in_a_report_once(drawn):
+    group_report(results_of(70, 15, 2), {}, facts())
+    assert [word for page in drawn() for word in page].count(DISCLAIMER) == 1
+
+
+def test_the_marks_follow_the_rule_and_chance_is_told(drawn):
+    group_report(results_of(10, 3, 4), {}, facts(rule=GradeRule.of("first")))
+    words = [word for page in drawn() for word in page]
+    assert words.count("40") == 10 * 3 + 3
+    assert "points of the first attempt, of 100" in words
+    group_report(results_of(10, 3, 4), {}, facts())
+    assert any("so the best of 5 equal attempts" in page_ for page in drawn() for page_ in page)
+
+
+def test_names_are_sorted_as_the_language_of_the_reader_sorts_them(application):
+    names = (
+        "Zorn",
+        "Łukasz",
+        "Óscar",
+        "Otto",
+        "Müller",
+        "Muzik",
+        "Lutz",
+        "student 10",
+        "student 9",
+    )
+    results = results_of(len(names), 1, 1, {f"p-{k}": name for k, name in enumerate(names)})
+    before = QLocale()
+    try:
+        for language, order in (
+            ("en", "Łukasz Lutz Müller Muzik Óscar Otto student 9|student 10 Zorn"),
+            ("pl", "Lutz Łukasz Müller Muzik Otto Óscar student 9|student 10 Zorn"),
+        ):
+            QLocale.setDefault(QLocale(language))
+            shown = " ".join(names[int(person.key[2:])] for person in in_order(results))
+            assert shown == order.replace("|", " "), language
+    finally:
+        QLocale.setDefault(before)
+
+
+def test_a_report_of_a_group_tells_how_far_it_is_and_can_be_cancelled(drawn):
+    told = []
+    group_report(results_of(30, 12, 3), {}, facts(), Progress(lambda f, _: told.append(f)))
+    assert told == sorted(told)
+    assert len(told) > 30
+    progress = Progress(lambda fraction, _: progress.cancel() if fraction > 0.4 else None)
+    with pytest.raises(Cancelled):
+        group_report(results_of(30, 12, 3), {}, facts(), progress)
 
 
 def test_a_student_s_report_tells_curves_and_what_the_instructor_said(drawn):
@@ -111,25 +191,29 @@ def test_a_student_s_report_tells_curves_and_what_the_instructor_said(drawn):
 
 def test_names_stand_in_a_report_only_where_they_are_asked_for(drawn):
     named = results_of(1, 1, 1, {"p-0": "Ada Lovelace"})
-    group_report(named, {}, "A", NOW)
-    assert any("student 0 (Ada Lovelace)" in page for page in drawn())
-    assert "Ada Lovelace" not in str(group_report(results_of(1, 1, 1), {}, "A", NOW))
+    group_report(named, {}, facts())
+    assert any("Ada Lovelace" in page and "student 0" in page for page in drawn())
+
+
+def test_without_names_the_report_holds_pseudonyms_alone(drawn):
+    group_report(results_of(1, 1, 1), {}, facts())
+    assert not any("Ada Lovelace" in page for page in drawn())
 
 
 def test_a_group_without_attempts_has_a_report_too(drawn):
-    assert pages_of(group_report(results_of(0, 0, 0), {}, "A", NOW)) == 1
+    assert pages_of(group_report(results_of(0, 0, 0), {}, facts())) == 1
     empty = results_of(1, 2, 0)
     assert pages_of(student_report(empty, empty.board.students[0], {}, NOW)) == 1
 
 
 def test_a_best_near_the_mark_is_marked_in_a_report_and_the_sign_is_explained(drawn):
-    results = results_of(2, 1, 3)
-    place, explained = ("p-1", "exercise-0"), "≈: within the error of measurement of the mark"
-    assert "%PDF" in group_report(results, {}, "Group A", NOW)[:8].decode("latin-1")
+    results, place = results_of(2, 1, 3), ("p-1", "exercise-0")
+    explained = "≈ the best is within the error of measurement of the mark."
+    group_report(results, {}, facts())
     assert explained not in [words for page in drawn() for words in page]
     near = replace(results.board.cells[place], near_mark=True)
     board = replace(results.board, cells={**results.board.cells, place: near})
-    group_report(replace(results, board=board), {}, "Group A", NOW)
+    group_report(replace(results, board=board), {}, facts())
     texts = [words for page in drawn() for words in page]
     assert explained in texts
-    assert len([words for words in texts if words.endswith(" ≈")]) == 1
+    assert [words for words in texts if words.endswith(" ≈")] == ["(3) ≈"]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal
 
 from app.session.access import Known, Visitor
+from app.session.audit import ACCOUNT, INSTRUCTOR, act_as
 from app.session.header import ANONYMOUS
 from app.session.people import Person
 from app.session.roster import looks_like_a_key
@@ -87,6 +88,7 @@ class Access(QObject):
     def sign_in(self, student: Person | None, instructor: bool = False) -> None:
         """Somebody has signed in, nobody is where neither is given."""
         self._visitor = replace(self._visitor, student=student, instructor=instructor)
+        act_as(INSTRUCTOR if instructor else ACCOUNT if student is None else student.key)
         self.changed.emit()
 
     def learn(self, known: Known) -> None:

@@ -17,6 +17,7 @@ from app.core.progress import Progress
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
 from app.session.access import Known
+from app.session.accounts import accounts_in
 from app.session.archive import Erased, backup, erase_person, left_out
 from app.session.board import ProgressBoard, board_of
 from app.session.course import (
@@ -33,13 +34,16 @@ from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
 from app.session.roster import RosterLine, roster_in
+from app.session.stations import NAME_SETTING
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
 from app.views.kit.roles import EVERYBODY, STAFF, Role
-from app.views.kit.text import declared, tr, tr_n
+from app.views.kit.text import declared, tr, tr_n, translated
+from app.views.people.group_report import ReportFacts, group_report
+from app.views.people.leaving import LeavingChoice, LeavingDialog
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -49,7 +53,8 @@ from app.views.people.pages import (
     PeoplePage,
     text_dialog,
 )
-from app.views.people.results_report import group_report, student_report, write_report
+from app.views.people.results_report import student_report, write_report
+from app.views.people.school_link import SchoolLink
 from app.views.people.stations import StationDoors, StationExchange
 from app.views.shell.feature import Context, Feature
 
@@ -82,6 +87,7 @@ class PeopleFeature(Feature):
 
     Attributes:
         page: board, students and courses.
+        link: to the store that the stations of a school share.
         stations: results of several stations, written and brought together.
         dialog: the one that was opened last.
     """
@@ -120,7 +126,10 @@ class PeopleFeature(Feature):
         with self._shell.made_for(STAFF):
             save = add_entries(menu, ((tr("Back up everything…"), "", self.back_up),))[0]
         self._actions = show, student, instructor, leave, save
-        self.stations = StationExchange(self.page.board.stations, self._doors())
+        controller = context.conductor.controller
+        self.link = SchoolLink(self._doors(), lambda: controller.is_running, self)
+        self.link.told.connect(self.page.board.show_store)
+        self.stations = StationExchange(self.page.board.stations, self._doors(), self.link)
         self._connect()
         ACCESS.changed.connect(self._follow)
         self._follow()
@@ -140,6 +149,7 @@ class PeopleFeature(Feature):
 
     def close(self) -> None:
         """End what runs, and the dialog that is open; nobody stays signed in."""
+        self.link.close()
         for task in tuple(self._running):
             task.close()
         if self.dialog is not None:
@@ -491,38 +501,59 @@ class PeopleFeature(Feature):
         if form == STUDENT_PDF and self._chosen_student() is None:
             self.failed.emit(tr("Choose a student on the board first: click on the row."))
             return
+        look = self._look
+        if look is None or form not in (ResultsFormat.MOODLE, GROUP_PDF):
+            self._ask_file(form)
+            return
+        report = form == GROUP_PDF
+        dialog = LeavingDialog(
+            look.board,
+            None if report else accounts_in(self._people.names()),
+            self._people.setting(NAME_SETTING),
+            lambda choice: self._ask_file(form, choice),
+            self._shell.dialog_parent,
+        )
+        self._open(dialog)
+
+    def _ask_file(self, form: str, choice: LeavingChoice | None = None) -> None:
+        """Ask which file results go to, and write them."""
         suffix = "pdf" if form.endswith("pdf") else "json" if form == "json" else "csv"
         parent, start = self._shell.dialog_parent, _documents() / f"acus-results-{form}.{suffix}"
         kind = f"{suffix.upper()} (*.{suffix})"
         path = QFileDialog.getSaveFileName(parent, tr("Export results"), str(start), kind)[0]
         if path:
-            self.export(form, Path(path))
+            self.export(form, Path(path), choice)
 
-    def export(self, form: str, path: Path) -> None:
+    def export(self, form: str, path: Path, choice: LeavingChoice | None = None) -> None:
         """Write the results of those on the board, beside the window; it can be cancelled."""
-        look = self._look
+        look, choice = self._look, choice or LeavingChoice()
         if look is None or not self._may():
             return
         semicolons, chosen = self.page.board.semicolons.isChecked(), self._chosen_student()
         saved, titles = tr("Saved {name}", name=str(path)), self._titles()
-        board = self.page.board
-        places = [board.course.currentText(), board.group.currentText()]
+        board, rule = self.page.board, choice.gradebook.rule
+        course, group = (
+            box.currentText() if box.currentData() else "" for box in (board.course, board.group)
+        )
+        facts = ReportFacts(course, group, choice.place, rule)
 
         def gather() -> Results:
             known = {person.key: person for person in look.people}
             wanted = {item.exercise for item in look.board.items}
             shown = {person.key for person in look.board.students}
             some = [one for one in look.attempts if one.exercise in wanted and one.student in shown]
-            return Results(look.board, some, known, self._people.remarks(), {})
+            accounts = accounts_in(self._people.names())
+            return Results(look.board, some, known, self._people.remarks(), {}, accounts, titles)
 
         def work(progress: Progress) -> None:
             results = gather()
             if form == GROUP_PDF:  # on pages of its own: Qt allows that beside the window
-                write_report(path, lambda: group_report(results, titles, " · ".join(places)))
+                write_report(path, lambda: group_report(results, titles, facts, progress))
             elif form == STUDENT_PDF and chosen is not None:
                 write_report(path, lambda: student_report(results, chosen, titles))
             else:
-                text = results_text(results, ResultsFormat(form), semicolons, progress)
+                told = (ResultsFormat(form), semicolons, progress, choice.gradebook, translated)
+                text = results_text(results, *told)
                 write_results(path, text)
 
         self._beside(work, lambda _: self.noted.emit(saved), tr("Writing the results"))
@@ -625,6 +656,7 @@ class PeopleFeature(Feature):
 
     def _ended(self) -> None:
         """Look again: what may be begun next has changed with an attempt that ended."""
+        self.link.soon()
         if ACCESS.student is not None:
             self.look()
 

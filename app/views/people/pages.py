@@ -173,6 +173,9 @@ class BoardTab(QWidget):
         column = QVBoxLayout(self)
         column.addLayout(top)
         column.addWidget(self.table, 1)
+        self.store = label("", "dim")
+        self.store.hide()
+        column.addWidget(self.store)
         below = QHBoxLayout()
         below.addWidget(self.hint, 1)
         self.buttons = tuple(button(action.text()) for action in (self.curve, self.attempts))
@@ -204,6 +207,11 @@ class BoardTab(QWidget):
             for value, title in entries:
                 box.addItem(title, value)
             box.setCurrentIndex(max(0, box.findData(before)))
+
+    def show_store(self, line: str) -> None:
+        """Say how it stands with the school's store; empty where there is none."""
+        self.store.setText(literal(line))
+        self.store.setVisible(bool(line))
 
     def set_leaving(self, may: bool) -> None:
         """Offer exports, and the choice of a group, or neither."""
@@ -583,7 +591,7 @@ class EntryDialog(SettingsDialog):
         super().__init__(title, (460, 240), QDialogButtonBox.StandardButton.Ok, parent)
         self._take = take
         self.lines = [QLineEdit(self) for _ in fields]
-        form = QFormLayout()
+        self.form = form = QFormLayout()
         for line, (name, hidden) in zip(self.lines, fields, strict=True):
             add_row(form, name, line)
             line.setAccessibleName(name)

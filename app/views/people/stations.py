@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from PySide6.QtCore import QStandardPaths
 from PySide6.QtWidgets import QDialog, QFileDialog, QMenu, QMessageBox, QPushButton, QWidget
@@ -62,19 +62,34 @@ class Gathered:
     unknown: tuple[Path, ...]
 
 
+class StoreLink(Protocol):
+    """What the menu asks of the school's store."""
+
+    def now(self) -> None:
+        """Exchange what is new with it."""
+        ...
+
+    def connect_store(self) -> None:
+        """Ask where it is."""
+        ...
+
+
 class StationExchange:
     """The button of stations on the board, and what its menu does.
 
     Args:
         button: that gets the menu.
         doors: of the page.
+        link: to the school's store.
     """
 
-    def __init__(self, button: QPushButton, doors: StationDoors) -> None:
+    def __init__(self, button: QPushButton, doors: StationDoors, link: StoreLink) -> None:
         self._doors = doors
         menu = QMenu(button)
         self._actions = []
         for title, action in (
+            (tr("Exchange with the school's store now"), link.now),
+            (tr("Connect to the school's store…"), link.connect_store),
             (tr("Bring results of stations together…"), self.choose_files),
             (tr("Write this station's results…"), self.choose_results),
             (tr("Write the course for a station…"), self.choose_course),

@@ -1,0 +1,1 @@
+"""Schema of the school's store, step by step (Alembic)."""

@@ -1,0 +1,123 @@
+"""The school's store in the window: connected to, kept up to date, and off the network."""
+
+import shutil
+
+import pytest
+from PySide6.QtWidgets import QCheckBox, QPlainTextEdit
+from test_views_people import record
+
+from app.session.people import People
+from app.session.roster import RosterLine
+from app.session.school_store import StorePlace, place_of_store, put_place, synchronise
+from app.session.stations import set_name
+from app.views.kit.access import ACCESS
+from app.views.people.feature import PeopleFeature
+
+
+@pytest.fixture
+def feature(window):
+    yield window.feature(PeopleFeature)
+    window.feature(PeopleFeature).close()
+
+
+def other_station(monkeypatch, root, place, *attempts):
+    """Another station meets the store."""
+    with monkeypatch.context() as other:
+        other.setenv("ACUS_DATA", str(root / "data"))
+        set_name("Theatre 2")
+        for name in attempts:
+            record(root / "records", name, "Bob", 80.0)
+        return synchronise(place, root / "records", People(), trust=True)
+
+
+def test_a_station_is_connected_and_lets_another_one_in(
+    window, feature, settle, tmp_path, monkeypatch
+):
+    folder = feature.context.services.sessions()
+    place = StorePlace(f"sqlite:///{tmp_path / 'school.sqlite'}")
+    other_station(monkeypatch, tmp_path / "other", place, "b")
+    record(folder, "a", People().add(RosterLine("Ada"))[0].key, 72.0)
+    feature.show()
+    feature.link.connect_store()
+    dialog = feature.dialog
+    dialog.lines[0].setText("somewhere")
+    dialog.save()
+    assert "is no URL of a school's store" in dialog.note.text()
+    dialog.lines[0].setText(place.url)
+    dialog.findChildren(QCheckBox)[0].setChecked(True)
+    dialog.save()
+    assert settle(lambda: feature.dialog is not None and feature.dialog is not dialog)
+    asked = feature.dialog
+    assert asked.text() == "Let these stations in?"
+    assert "Theatre 2" in asked.informativeText()
+    assert not (folder / "b.mcap").exists()
+    assert "1 station waits to be let in" in feature.page.board.store.text()
+    next(b for b in asked.buttons() if b.text() == "Let them in").click()
+    assert settle(lambda: feature.dialog is not None and feature.dialog is not asked)
+    text = feature.dialog.findChild(QPlainTextEdit).toPlainText()
+    assert text == "From other stations: 1 attempt added, 0 here already"
+    feature.dialog.close()
+    assert (folder / "b.mcap").exists()
+    assert feature.page.board.store.text().startswith("School's store: up to date at ")
+    known = place_of_store()
+    assert known is not None
+    assert (known.url, known.gives_course, known.pins) == (place.url, True, True)
+    other_station(monkeypatch, tmp_path / "other", place)
+    assert (tmp_path / "other" / "records" / "a.mcap").exists()
+
+
+def test_what_comes_is_taken_in_quietly_but_not_while_an_attempt_runs(
+    window, feature, settle, tmp_path, monkeypatch
+):
+    folder = feature.context.services.sessions()
+    place = StorePlace(f"sqlite:///{tmp_path / 'school.sqlite'}")
+    synchronise(place, folder, People())
+    other_station(monkeypatch, tmp_path / "other", place, "b")
+    synchronise(place, folder, People(), trust=True)
+    other_station(monkeypatch, tmp_path / "other", place, "c")
+    put_place(place)
+    feature.show()
+    running = [True]
+    feature.link._busy = lambda: running[0]
+    feature.link.quietly()
+    assert not feature.page.board.store.text()
+    running[0] = False
+    feature.link.quietly()
+    feature.link.quietly()  # too fast: one at a time
+    assert settle(lambda: (folder / "c.mcap").exists())
+    assert settle(lambda: feature.page.board.store.text().startswith("School's store"))
+
+
+def test_a_store_that_is_away_is_told_with_how_many_attempts_wait(
+    window, feature, settle, tmp_path
+):
+    folder = feature.context.services.sessions()
+    share = tmp_path / "share"
+    share.mkdir()
+    place = StorePlace(f"sqlite:///{share / 'school.sqlite'}")
+    put_place(place)
+    synchronise(place, folder, People())
+    record(folder, "a", "Ada", 72.0)
+    shutil.rmtree(share)
+    feature.show()
+    feature.link.quietly()
+    board = feature.page.board
+    assert settle(lambda: "no folder" in board.store.text())
+    assert board.store.text().endswith("1 attempt waits to be sent.")
+    share.mkdir()
+    feature.link.now()
+    assert settle(lambda: board.store.text().startswith("School's store: up to date"))
+    assert settle(lambda: feature.dialog is not None)
+    feature.dialog.close()
+
+
+def test_the_store_is_the_instructors(window, feature, settle, tmp_path):
+    People().set_instructor("correct horse battery")
+    feature.look()
+    settle(lambda: not ACCESS.may_manage)
+    said = []
+    feature.failed.connect(said.append)
+    feature.link.now()
+    feature.link.connect_store()
+    assert len(said) == 2
+    assert feature.dialog is None
