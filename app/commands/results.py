@@ -50,7 +50,7 @@ def register(app: typer.Typer) -> None:
 def board(
     course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
 ) -> Answer:
-    """Show best, last, trend, time since, by exercise (instructor).
+    """Show best, last, trend, time since, competence (instructor).
 
     Only comparable attempts count, none of a scripted trainee or an emulated board.
     """
@@ -72,13 +72,15 @@ def curve(
     course: CourseOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Show a student's points, best and moving median (instructor)."""
+    """Show a student's points, best, median, competence (instructor)."""
+    from app.exchange.results import competence_document
     from app.session.people import People
 
     instructor()
     person = People().find(pseudonym)
     found, _, _ = board_at(course, "", folder)
     points = found.curve(person.key, exercise)
+    standing = competence_document(found, person.key, exercise)
     facts = {
         "pseudonym": person.pseudonym,
         "exercise": exercise,
@@ -92,6 +94,7 @@ def curve(
             }
             for p in points
         ],
+        "competence": standing,
     }
     row = template("{started:@}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}")
     nothing = sentence(
@@ -99,8 +102,8 @@ def curve(
         pseudonym=pseudonym,
         exercise=exercise,
     )
-    none = [] if points else [nothing]
-    return Answer(facts, none, shown=Each("points", row))
+    lines = [nothing] if standing is None else [standing["words"]]
+    return Answer(facts, lines, shown=Each("points", row))
 
 
 def export(
@@ -310,4 +313,5 @@ def _cell(row: dict[str, Any]) -> Sentence:
             near = sentence(", within the error of measurement of the mark")
             points = joined("", (points, near))
     others = sentence(" ({others} not counted)", others=row["others"]) if row["others"] else ""
-    return joined("", (points, others))
+    competent = ("; ", row["competence"]["words"]) if row["competence"] else ()
+    return joined("", (points, others, *competent))

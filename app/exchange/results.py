@@ -23,6 +23,7 @@ from app.core.words import printable
 from app.exchange.csv_export import table_text, write_csv
 from app.exchange.errors import ExportError
 from app.exchange.moodle import MoodleChoice, moodle_text
+from app.scoring.competence import competence_words
 from app.scoring.conditions import comparison_groups
 from app.session.accounts import Account
 from app.session.board import ProgressBoard
@@ -52,7 +53,7 @@ TIDY: Final = (
 )
 """Columns of the tidy table: a row for each metric of each attempt; `score_total` is one."""
 
-_OF_CELL: Final = ("attempts", "best", "last", "trend", "passed", "days_since")
+_OF_CELL: Final = ("attempts", "best", "last", "trend", "passed", "days_since", "competence")
 _DAY: Final = 86400.0
 _REPORT: Final = 100
 
@@ -178,9 +179,18 @@ def board_rows(board: ProgressBoard) -> list[dict[str, Any]]:
     return [
         {"pseudonym": person.pseudonym, "exercise": item.exercise, "version": item.version}
         | board.cells[person.key, item.exercise].document()
+        | {"competence": competence_document(board, person.key, item.exercise)}
         for person in board.students
         for item in board.items
     ]
+
+
+def competence_document(board: ProgressBoard, key: str, exercise: str) -> dict[str, Any] | None:
+    """Return how a student stands at a skill, JSON-ready, with its `words`; None without any."""
+    standing = board.competence(key, exercise)
+    if standing is None:
+        return None
+    return standing.document() | {"words": competence_words(standing)}
 
 
 def _tidy(results: Results, progress: Progress) -> Iterator[Sequence[object]]:
@@ -227,7 +237,9 @@ def _wide(results: Results) -> Iterator[Sequence[object]]:
             cell = board.cells[person.key, item.exercise]
             days = None if cell.since is None else cell.since.total_seconds() / _DAY
             passed = cell.passed if cell.attempts else None
-            cells += [cell.attempts, cell.best, cell.last, cell.trend, passed, days]
+            standing = board.competence(person.key, item.exercise)
+            state = None if standing is None else standing.state.value
+            cells += [cell.attempts, cell.best, cell.last, cell.trend, passed, days, state]
         known = (results.names.get(person.key, ""),) if results.names else ()
         yield (*known, person.pseudonym, " ".join(person.groups), *cells, DISCLAIMER)
 

@@ -11,6 +11,7 @@ import datetime
 from collections import Counter, defaultdict
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from statistics import median
 from typing import Any, Final
@@ -20,6 +21,7 @@ from pydantic import ValidationError
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
+from app.scoring.competence import RULE, Competence, CompetenceRule, competence
 from app.scoring.conditions import comparison_groups
 from app.scoring.pass_mark import is_near_mark
 from app.session.course import Course, CourseItem, courses, held_back, holding
@@ -99,12 +101,16 @@ class ProgressBoard:
         items: columns.
         cells: by key of the student and id of the exercise.
         counted: attempts that count, in order of time, likewise.
+        rule: by which a student is called competent.
+        now: time that "since" is told from.
     """
 
     students: tuple[Person, ...]
     items: tuple[CourseItem, ...]
     cells: Mapping[tuple[str, str], BoardCell]
     counted: Mapping[tuple[str, str], tuple[Indexed, ...]]
+    rule: CompetenceRule = RULE
+    now: datetime.datetime | None = None
 
     def curve(self, key: str, exercise: str) -> list[CurvePoint]:
         """Return a student's curve in an exercise, oldest first."""
@@ -116,6 +122,30 @@ class ProgressBoard:
             found.append(CurvePoint(one.id, one.started, totals[-1], max(totals), middle))
         return found
 
+    def competence(self, key: str, exercise: str) -> Competence | None:
+        """Return how a student stands at the skill of an exercise; None without an attempt.
+
+        It is told when it is asked for: of a large board most cells never are.
+
+        Raises:
+            CompetenceError: if no test keeps the course's rule.
+        """
+        place = (key, exercise)
+        if place not in self._competences and (some := self.counted.get(place)):
+            passed, times = [bool(one.passed) for one in some], [one.time for one in some]
+            self._competences[place] = competence(passed, times, self.now, self.rule)
+        return self._competences.get(place)
+
+    def tell_competence(self) -> None:
+        """Tell it of every cell now, so that nobody waits for it later."""
+        for person in self.students:
+            for item in self.items:
+                self.competence(person.key, item.exercise)
+
+    @cached_property
+    def _competences(self) -> dict[tuple[str, str], Competence]:
+        return {}
+
 
 def progress_board(
     students: Sequence[Person],
@@ -124,6 +154,7 @@ def progress_board(
     remarks: Mapping[str, Remarks],
     now: datetime.datetime,
     held: Container[str] = (),
+    rule: CompetenceRule = RULE,
 ) -> ProgressBoard:
     """Make the board.
 
@@ -134,6 +165,7 @@ def progress_board(
         remarks: what the instructor said, by attempt.
         now: time that "since" is told from.
         held: attempts whose results are not open to who looks at the board.
+        rule: by which a student is called competent.
     """
     wanted = {item.exercise: item for item in items}
     rows = {person.key for person in students}
@@ -175,7 +207,7 @@ def progress_board(
         for item in items
     }
     kept = {place: tuple(some) for place, some in counted.items() if some}
-    return ProgressBoard(tuple(students), tuple(items), cells, kept)
+    return ProgressBoard(tuple(students), tuple(items), cells, kept, rule, now)
 
 
 def board_of(
@@ -215,7 +247,8 @@ def board_of(
     now = now or datetime.datetime.now(datetime.UTC)
     asked = ((one.id, one.student, one.exercise, one.version) for one in own)
     held = held_back(asked) if released else {}
-    board = progress_board(students, items, own, people.remarks(), now, held)
+    rule = course.competence if course is not None else RULE
+    board = progress_board(students, items, own, people.remarks(), now, held, rule)
     return board, attempts
 
 

@@ -20,6 +20,7 @@ from app.core.messages import sentence
 from app.exercises.guidance import Purpose
 from app.exercises.library import library
 from app.exercises.schema import Exercise
+from app.scoring.competence import RULE, CompetenceRule, design
 from app.session.audit import note
 from app.session.errors import SessionError
 from app.session.index import Indexed
@@ -79,6 +80,7 @@ class Course(Strict):
         ordered: whether an exercise opens only after the one before it was passed or its attempts
             are used up.
         items: the exercises, in order.
+        competence: when a student is called competent at one of them.
     """
 
     id: Annotated[str, Field(pattern=NAME, max_length=64)]
@@ -86,6 +88,7 @@ class Course(Strict):
     groups: tuple[str, ...] = ()
     ordered: bool = False
     items: tuple[CourseItem, ...] = ()
+    competence: CompetenceRule = RULE
 
     @model_validator(mode="after")
     def _each_once(self) -> Course:
@@ -98,6 +101,14 @@ class Course(Strict):
                     exercise_name=twice[0],
                 )
             )
+        return self
+
+    @model_validator(mode="after")
+    def _can_be_told(self) -> Course:
+        if self.competence != RULE:
+            design(
+                self.competence
+            )  # refuses rates that no test of a student's attempts tells apart
         return self
 
     def takes(self, person: Person) -> bool:

@@ -15241,6 +15241,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Semikolons und Dezimalkommas: wie Excel sie öffnet, wo das Komma üblich ist</translation>
         </message>
         <message>
+            <source>Competence</source>
+            <translation type="unfinished">Kompetenz</translation>
+        </message>
+        <message>
             <source>Group</source>
             <translation type="unfinished">Gruppe</translation>
         </message>
@@ -15550,6 +15554,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>≈ the best is within the error of measurement of the mark.</source>
             <translation type="unfinished">≈ der beste liegt im Messfehler der Bestehensgrenze.</translation>
+        </message>
+        <message>
+            <source>★ competent, ▼ relapse.</source>
+            <translation type="unfinished">★ kompetent, ▼ Rückfall.</translation>
         </message>
         <message>
             <source>Place, date</source>
@@ -18418,6 +18426,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ausgleich von Schwerkraft und Gelenkreibung</translation>
         </message>
         <message>
+            <source>Competence: LC-CUSUM, then CUSUM</source>
+            <translation type="unfinished">Kompetenz: LC-CUSUM, danach CUSUM</translation>
+        </message>
+        <message>
             <source>Contact of the tip with bone</source>
             <translation type="unfinished">Kontakt der Spitze mit Knochen</translation>
         </message>
@@ -20436,6 +20448,82 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Moodle knows students by</source>
             <translation type="unfinished">Moodle kennt Teilnehmer nach</translation>
+        </message>
+        <message>
+            <source>failure rates {acceptable:g} (acceptable) and {unacceptable:g} (unacceptable): the first must be less than the second, both between 0 and 1</source>
+            <translation type="unfinished">Fehlerquoten {acceptable:g} (annehmbar) und {unacceptable:g} (nicht annehmbar): Die erste muss kleiner sein als die zweite, beide zwischen 0 und 1</translation>
+        </message>
+        <message>
+            <source>failure rates of {acceptable:g} and {unacceptable:g} are too near to be told apart in {most} attempts with errors of {false_alarm:g} and {missed:g}: take rates further apart, or larger errors</source>
+            <translation type="unfinished">Fehlerquoten von {acceptable:g} und {unacceptable:g} liegen zu nahe beieinander, um sie in {most} Versuchen mit Irrtümern von {false_alarm:g} und {missed:g} zu unterscheiden: Nehmen Sie Quoten, die weiter auseinander liegen, oder größere Irrtümer</translation>
+        </message>
+        <message>
+            <source>{times} times for {attempts} attempts: give one for each, or none</source>
+            <translation type="unfinished">{times} Zeiten für {attempts} Versuche: Geben Sie für jeden eine an, oder keine</translation>
+        </message>
+        <message>
+            <source>the unacceptable failure rate is {unacceptable:g}, the acceptable one {acceptable:g}: it must be more</source>
+            <translation type="unfinished">die nicht annehmbare Fehlerquote ist {unacceptable:g}, die annehmbare {acceptable:g}: Sie muss größer sein</translation>
+        </message>
+        <message>
+            <source>limit {limit:g}, start {start:g} and {attempts} attempts: the start is at least 0 and below the limit, attempts are 0 to {most}</source>
+            <translation type="unfinished">Grenze {limit:g}, Beginn {start:g} und {attempts} Versuche: Der Beginn ist mindestens 0 und kleiner als die Grenze, Versuche sind 0 bis {most}</translation>
+        </message>
+        <message>
+            <source>competent after {attempts} (false alarm ≤ {percent} %)</source>
+            <translation type="unfinished">kompetent nach {attempts} (Fehlalarm ≤ {percent} %)</translation>
+        </message>
+        <message>
+            <source>relapse after attempt {attempt}: {more}</source>
+            <translation type="unfinished">Rückfall nach Versuch {attempt}: {more}</translation>
+        </message>
+        <message>
+            <source>not yet: {more}</source>
+            <translation type="unfinished">noch nicht: {more}</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more</source>
+            <translation type="unfinished">mindestens noch {fewest}</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more (hardly, as the last ones went)</source>
+            <translation type="unfinished">mindestens noch {fewest} (kaum, so wie die letzten gingen)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} or more)</source>
+            <translation type="unfinished">mindestens noch {fewest} ({low} oder mehr)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} to {high})</source>
+            <translation type="unfinished">mindestens noch {fewest} ({low} bis {high})</translation>
+        </message>
+        <message>
+            <source>competent</source>
+            <translation type="unfinished">kompetent</translation>
+        </message>
+        <message>
+            <source>relapse</source>
+            <translation type="unfinished">Rückfall</translation>
+        </message>
+        <message>
+            <source>Competent: fails {acceptable} % of the time or less, not {unacceptable} % or more (LC-CUSUM). Of those who are not, at most {false_alarm} % are called competent within {attempts} attempts; of those who are, at most {missed} % are not. Attempts more: 80 % interval, if the last attempts go on as they went.</source>
+            <translation type="unfinished">Kompetent: scheitert in höchstens {acceptable} % der Versuche, nicht in {unacceptable} % oder mehr (LC-CUSUM). Von denen, die es nicht sind, heißen höchstens {false_alarm} % innerhalb von {attempts} Versuchen kompetent; von denen, die es sind, höchstens {missed} % nicht. Weitere Versuche: 80-%-Intervall, wenn es so weitergeht wie in den letzten Versuchen.</translation>
+        </message>
+        <message>
+            <source>Acceptable failures</source>
+            <translation type="unfinished">Annehmbare Fehler</translation>
+        </message>
+        <message>
+            <source>Unacceptable failures</source>
+            <translation type="unfinished">Nicht annehmbare Fehler</translation>
+        </message>
+        <message>
+            <source>no number of attempts tells these apart</source>
+            <translation type="unfinished">keine Zahl von Versuchen unterscheidet diese</translation>
+        </message>
+        <message>
+            <source>told apart in {n} attempts</source>
+            <translation type="unfinished">in {n} Versuchen zu unterscheiden</translation>
         </message>
         <message>
             <source>give one way to set the mark: --angoff FILE, --borderline FILE or --experienced GROUP</source>

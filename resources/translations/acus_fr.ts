@@ -15241,6 +15241,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Points-virgules et virgules décimales : comme Excel les ouvre là où la virgule est d’usage</translation>
         </message>
         <message>
+            <source>Competence</source>
+            <translation type="unfinished">Compétence</translation>
+        </message>
+        <message>
             <source>Group</source>
             <translation type="unfinished">Groupe</translation>
         </message>
@@ -15550,6 +15554,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>≈ the best is within the error of measurement of the mark.</source>
             <translation type="unfinished">≈ le meilleur est dans l’erreur de mesure du seuil.</translation>
+        </message>
+        <message>
+            <source>★ competent, ▼ relapse.</source>
+            <translation type="unfinished">★ compétent, ▼ rechute.</translation>
         </message>
         <message>
             <source>Place, date</source>
@@ -18418,6 +18426,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Compensation de la gravité et du frottement articulaire</translation>
         </message>
         <message>
+            <source>Competence: LC-CUSUM, then CUSUM</source>
+            <translation type="unfinished">Compétence : LC-CUSUM, puis CUSUM</translation>
+        </message>
+        <message>
             <source>Contact of the tip with bone</source>
             <translation type="unfinished">Contact de la pointe avec l’os</translation>
         </message>
@@ -20436,6 +20448,82 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Moodle knows students by</source>
             <translation type="unfinished">Moodle connaît les étudiants par</translation>
+        </message>
+        <message>
+            <source>failure rates {acceptable:g} (acceptable) and {unacceptable:g} (unacceptable): the first must be less than the second, both between 0 and 1</source>
+            <translation type="unfinished">taux d'échec {acceptable:g} (acceptable) et {unacceptable:g} (inacceptable) : le premier doit être inférieur au second, tous deux entre 0 et 1</translation>
+        </message>
+        <message>
+            <source>failure rates of {acceptable:g} and {unacceptable:g} are too near to be told apart in {most} attempts with errors of {false_alarm:g} and {missed:g}: take rates further apart, or larger errors</source>
+            <translation type="unfinished">des taux d'échec de {acceptable:g} et {unacceptable:g} sont trop proches pour être distingués en {most} essais avec des erreurs de {false_alarm:g} et {missed:g} : prenez des taux plus éloignés, ou des erreurs plus grandes</translation>
+        </message>
+        <message>
+            <source>{times} times for {attempts} attempts: give one for each, or none</source>
+            <translation type="unfinished">{times} heures pour {attempts} essais : donnez-en une pour chacun, ou aucune</translation>
+        </message>
+        <message>
+            <source>the unacceptable failure rate is {unacceptable:g}, the acceptable one {acceptable:g}: it must be more</source>
+            <translation type="unfinished">le taux d'échec inacceptable est {unacceptable:g}, l'acceptable {acceptable:g} : il doit être supérieur</translation>
+        </message>
+        <message>
+            <source>limit {limit:g}, start {start:g} and {attempts} attempts: the start is at least 0 and below the limit, attempts are 0 to {most}</source>
+            <translation type="unfinished">limite {limit:g}, départ {start:g} et {attempts} essais : le départ est d'au moins 0 et sous la limite, les essais vont de 0 à {most}</translation>
+        </message>
+        <message>
+            <source>competent after {attempts} (false alarm ≤ {percent} %)</source>
+            <translation type="unfinished">compétent après {attempts} (fausse alerte ≤ {percent} %)</translation>
+        </message>
+        <message>
+            <source>relapse after attempt {attempt}: {more}</source>
+            <translation type="unfinished">rechute après l'essai {attempt} : {more}</translation>
+        </message>
+        <message>
+            <source>not yet: {more}</source>
+            <translation type="unfinished">pas encore : {more}</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more</source>
+            <translation type="unfinished">encore {fewest} au moins</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more (hardly, as the last ones went)</source>
+            <translation type="unfinished">encore {fewest} au moins (peu probable, vu les derniers)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} or more)</source>
+            <translation type="unfinished">encore {fewest} au moins ({low} ou plus)</translation>
+        </message>
+        <message>
+            <source>at least {fewest} more ({low} to {high})</source>
+            <translation type="unfinished">encore {fewest} au moins ({low} à {high})</translation>
+        </message>
+        <message>
+            <source>competent</source>
+            <translation type="unfinished">compétent</translation>
+        </message>
+        <message>
+            <source>relapse</source>
+            <translation type="unfinished">rechute</translation>
+        </message>
+        <message>
+            <source>Competent: fails {acceptable} % of the time or less, not {unacceptable} % or more (LC-CUSUM). Of those who are not, at most {false_alarm} % are called competent within {attempts} attempts; of those who are, at most {missed} % are not. Attempts more: 80 % interval, if the last attempts go on as they went.</source>
+            <translation type="unfinished">Compétent : échoue dans {acceptable} % des cas au plus, et non dans {unacceptable} % ou plus (LC-CUSUM). De ceux qui ne le sont pas, {false_alarm} % au plus sont dits compétents en {attempts} essais ; de ceux qui le sont, {missed} % au plus ne le sont pas. Essais encore nécessaires : intervalle à 80 %, si les derniers essais continuent de même.</translation>
+        </message>
+        <message>
+            <source>Acceptable failures</source>
+            <translation type="unfinished">Échecs acceptables</translation>
+        </message>
+        <message>
+            <source>Unacceptable failures</source>
+            <translation type="unfinished">Échecs inacceptables</translation>
+        </message>
+        <message>
+            <source>no number of attempts tells these apart</source>
+            <translation type="unfinished">aucun nombre d'essais ne les distingue</translation>
+        </message>
+        <message>
+            <source>told apart in {n} attempts</source>
+            <translation type="unfinished">distingués en {n} essais</translation>
         </message>
         <message>
             <source>give one way to set the mark: --angoff FILE, --borderline FILE or --experienced GROUP</source>

@@ -75,6 +75,10 @@ def test_a_course_from_roster_to_gradebook(acus, tmp_path):
     assert [(c["pseudonym"], c["attempts"]) for c in cells] == [("Ada", 1), ("Bob", 1)]
     points = acus("results", "curve", "Ada", "liver-01")["points"]
     assert points[0]["best"] == points[0]["total"] == cells[0]["best"]
+    competent = acus("results", "curve", "Ada", "liver-01")["competence"]
+    assert competent == cells[0]["competence"]
+    assert (competent["state"], competent["attempts"]) == ("not yet", 1)
+    assert competent["words"].startswith("not yet: at least ")
     for form in ("tidy", "wide", "moodle"):
         done = acus("results", "export", form, "--out", tmp_path / f"{form}.csv", "--course", "c")
         assert (done["attempts"], done["students"]) == (2, 2)

@@ -129,6 +129,58 @@ def test_a_result_that_is_held_and_a_void_one_are_told_apart_and_counted_nowhere
     assert [point.attempt for point in found.curve("p-a", "lung")] == ["a1"]
 
 
+def test_a_board_tells_who_is_competent_by_the_attempts_that_count() -> None:
+    """By hand: ten passes in a row make a student competent, three failures then a relapse."""
+    ten = [attempt(f"a{k}", "p-a", 80, k) for k in range(11)]
+    void = board(ten, {"a3": Remarks(void="camera fell")}).competence("p-a", "lung")
+    assert (void.state, void.changes[-1].attempt) == ("competent", 10)
+    short = board(ten, {f"a{k}": Remarks(void="x") for k in (3, 4)}).competence("p-a", "lung")
+    assert (short.state, short.fewest) == ("not yet", 1)
+    fallen = [*ten, *(attempt(f"b{k}", "p-a", 20, 11 + k) for k in range(3))]
+    assert board(fallen).competence("p-a", "lung").state == "relapse"
+    assert board(fallen).competence("p-b", "lung") is None
+
+
+def test_weeks_between_attempts_and_since_the_last_one_are_a_gap_on_the_board() -> None:
+    some = [attempt(f"a{k}", "p-a", 80, k - 60 if k < 6 else k) for k in range(10)]
+    assert board(some).competence("p-a", "lung").fewest == 6
+    old = [attempt(f"a{k}", "p-a", 80, k - 60) for k in range(6)]
+    assert board(old).competence("p-a", "lung").fewest == 10
+
+
+def test_a_course_states_its_own_rates_and_keeps_them_in_its_file(tmp_path: Path) -> None:
+    path = tmp_path / "c.yaml"
+    path.write_text("id: c\ntitle: C\ncompetence: {unacceptable: 0.5, missed: 0.2}\n")
+    course = read_course(path)
+    assert (course.competence.acceptable, course.competence.unacceptable) == (0.1, 0.5)
+    again = read_course(course.save(tmp_path))
+    assert again.competence == course.competence
+    some = [attempt(f"a{k}", "p-a", 80, k) for k in range(8)]
+    items = [CourseItem(exercise="lung")]
+    sooner = progress_board([ADA], items, some, {}, NOW, rule=course.competence)
+    assert sooner.competence("p-a", "lung").state == "competent"  # six passes: log(0.9/0.5) each
+    assert board(some).competence("p-a", "lung").state == "not yet"
+
+
+@pytest.mark.parametrize(
+    ("rule", "said"),
+    [
+        ("{acceptable: 0.4}", "it must be more"),
+        ("{acceptable: 0.1, unacceptable: 0.11}", "too near to be told apart"),
+        ("{acceptable: 0}", "acceptable"),
+        ("{false_alarm: 1}", "false_alarm"),
+        ("{alpha: 0.05}", "alpha"),
+    ],
+)
+def test_a_course_with_rates_that_make_no_test_is_refused(
+    rule: str, said: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "c.yaml"
+    path.write_text(f"id: c\ntitle: C\ncompetence: {rule}\n")
+    with pytest.raises(ConfigurationError, match=said):
+        read_course(path)
+
+
 def test_ten_thousand_attempts_make_a_board_within_a_second() -> None:
     people = [Person(f"p-{k}", f"s{k}") for k in range(200)]
     some = [

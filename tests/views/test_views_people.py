@@ -11,8 +11,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QFileDialog, QLineEdit, QPlainTextEdit
 
 from app.exercises.library import load_exercise
+from app.scoring.competence import CompetenceRule
 from app.scoring.conditions import Conditions
-from app.session.course import Course, courses
+from app.session.course import Course, CourseError, courses
 from app.session.header import SessionHeader
 from app.session.people import People
 from app.session.recorder import Recorder
@@ -274,6 +275,46 @@ def test_the_board_shows_the_curve_and_is_exported(window, feature, settle, tmp_
     settle(lambda: (tmp_path / "r.json").exists())
     document = json.loads((tmp_path / "r.json").read_text())
     assert document["students"][0]["pseudonym"] == "Ada"
+
+
+def test_the_board_and_the_curve_say_who_is_competent(window, feature, settle):
+    """Twelve passes: the tenth makes him competent, by ten times log(0.9/0.6) against 3.89."""
+    person, _ = People().add(RosterLine("Ada"))
+    for n in range(12):
+        record(feature.context.services.sessions(), f"a{n}", person.key, 90.0)
+    feature.show()
+    board = feature.page.board
+    settle(lambda: board.board is not None and bool(board.board.items))
+    assert "★ competent" in board.table.item(0, 1).text()
+    assert "competent after 10 attempts (false alarm ≤ 5 %)" in board.table.item(0, 1).toolTip()
+    assert "LC-CUSUM" in board.hint.toolTip()
+    board.table.cellDoubleClicked.emit(0, 1)
+    assert feature.dialog.competence.text() == "competent after 10 attempts (false alarm ≤ 5 %)"
+    feature.dialog.plot.grab()
+    feature.dialog.close()
+
+
+def test_a_course_that_is_edited_keeps_the_rates_of_its_file(feature):
+    rule = CompetenceRule(acceptable=0.05, unacceptable=0.5)
+    feature.edit_course(Course(id="c", title="C", competence=rule))
+    dialog = feature.dialog
+    assert dialog.course().competence == rule
+    dialog.rates.unacceptable.setValue(30.0)
+    dialog.rates.unacceptable.editingFinished.emit()
+    assert dialog.course().competence == CompetenceRule(acceptable=0.05, unacceptable=0.3)
+    assert dialog.rates.note.text().startswith("told apart in ")
+    dialog.close()
+
+
+def test_a_course_whose_rates_make_no_test_is_refused_in_the_form(feature):
+    feature.edit_course(Course(id="c", title="C"))
+    dialog = feature.dialog
+    dialog.rates.unacceptable.setValue(5.0)
+    dialog.rates.unacceptable.editingFinished.emit()
+    assert dialog.rates.note.text() == "no number of attempts tells these apart"
+    with pytest.raises(CourseError, match=r"Competence: .*it must be more"):
+        dialog.course()
+    dialog.close()
 
 
 def test_who_was_erased_is_shown_as_erased(window, feature, settle):

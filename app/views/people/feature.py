@@ -263,6 +263,7 @@ class PeopleFeature(Feature):
                 board = replace(board, students=tuple(everybody))
                 known = [one for one in known if student and one.takes(student)]
                 broken, waiting = [], {}
+            board.tell_competence()  # here, where the window need not wait for it
             own = [one for one in attempts if student and one.student == student.key]
             own = not_void(own, remarks)
             standings = {
@@ -299,8 +300,8 @@ class PeopleFeature(Feature):
         look = self._look
         if look is None:
             return
-        points = look.board.curve(key, exercise)
-        dialog = CurveDialog(self._named(key, exercise), points, self._shell.dialog_parent)
+        parent = self._shell.dialog_parent
+        dialog = CurveDialog(self._named(key, exercise), look.board, key, exercise, parent)
         dialog.attempt_chosen.connect(self.attempt_wanted)
         dialog.attempts.clicked.connect(lambda: self._show_attempts(key, exercise))
         dialog.attempts.clicked.connect(dialog.accept)

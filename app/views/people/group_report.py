@@ -27,8 +27,10 @@ from app.session.course import CourseItem
 from app.session.people import Person
 from app.views.debrief.report import DIM, INK, RULE
 from app.views.kit.text import day, moment, number, tr, tr_n, translated
+from app.views.people.competence_marks import MARKS
+from app.views.people.competence_marks import rule_words as competence_rule
 from app.views.people.report_pages import ReportPages, draw_pdf
-from app.views.people.results_report import PASSED
+from app.views.people.results_report import INKS, PASSED
 
 _LINE: Final = 13.4
 """Height of a row of marks [pt]: thirty of them stand on a page."""
@@ -43,6 +45,8 @@ _TOTAL: Final = 52.0
 _RIGHT: Final = 28.0
 """Where a mark ends in its column [pt]."""
 _SMALL: Final = 6.2
+_STAR: Final = 40.0
+"""Where the mark of who is competent stands in a column [pt]."""
 _HEAD: Final = 32.0
 _STRIPE: Final = "#f1f3f5"
 _SIGNED: Final = 70.0
@@ -258,7 +262,11 @@ def _marks(
         for place, item in enumerate(items):
             cell = board.cells[person.key, item.exercise]
             mark = rule.grade(board.counted.get((person.key, item.exercise), ()))
-            _mark(sheet, sheet.margin + _NAME + place * width, cell, mark)
+            left = sheet.margin + _NAME + place * width
+            _mark(sheet, left, cell, mark)
+            standing = board.competence(person.key, item.exercise)
+            if standing is not None and standing.state in MARKS:
+                sheet.text(left + _STAR, MARKS[standing.state], _SMALL, INKS[standing.state])
         if last:
             passed = sum(board.cells[person.key, item.exercise].passed for item in board.items)
             words = tr("{n} of {m}", n=passed, m=len(board.items))
@@ -299,8 +307,9 @@ def _mark(sheet: ReportPages, left: float, cell: BoardCell, mark: float | None) 
         sheet.text(left + 2.0, "✔", 7.0, colour)
     taken = sheet.advance(words, 8.0, bold=cell.passed)
     sheet.text(left + _RIGHT - taken, words, 8.0, colour, bold=cell.passed)
-    near = " ≈" if cell.near_mark else ""
-    sheet.text(left + _RIGHT + 2.0, f"({cell.attempts}){near}", 5.6, DIM)
+    if cell.near_mark:
+        sheet.text(left + 9.5, "≈", 5.6, DIM)
+    sheet.text(left + _RIGHT + 2.0, f"({cell.attempts})", 5.6, DIM)
 
 
 def _below(
@@ -347,7 +356,10 @@ def _notes(sheet: ReportPages, results: Results, rule: GradeRule) -> None:
     cells = results.board.cells.values()
     near = tr("≈ the best is within the error of measurement of the mark.")
     near = near if any(cell.near_mark for cell in cells) else ""
-    for words in filter(None, (how, near, pages, chance[:1].upper() + chance[1:])):
+    stars = tr("★ competent, ▼ relapse.")
+    competent = f"{stars} {competence_rule(results.board)}" if results.board.items else ""
+    chance = chance[:1].upper() + chance[1:]
+    for words in filter(None, (how, near, competent, pages, chance)):
         sheet.paragraph(words if words.endswith(".") else f"{words}.", 8.0, DIM)
 
 

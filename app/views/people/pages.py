@@ -42,6 +42,7 @@ from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
 from app.exercises.guidance import Purpose
 from app.exercises.schema import Exercise
+from app.scoring.competence import Competence, CompetenceState
 from app.session.board import BoardCell, CurvePoint, ProgressBoard
 from app.session.course import Course, CourseError, CourseStanding, next_of_course
 from app.session.people import Person
@@ -53,6 +54,14 @@ from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import date_text, declared, listing, literal, tr, tr_n, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
+from app.views.people.competence_marks import (
+    MARKS,
+    competence_line,
+    draw_changes,
+    mark_words,
+    rule_words,
+)
+from app.views.people.competence_rates import CompetenceRates
 
 _DAY: Final = 86400.0
 _LEVEL: Final = 0.5
@@ -230,11 +239,18 @@ class BoardTab(QWidget):
             self.table.setItem(row, 0, QTableWidgetItem(NAMES.shown(person.pseudonym)))
             for place, item in enumerate(board.items, 1):
                 cell = board.cells[person.key, item.exercise]
-                shown = QTableWidgetItem(cell_words(cell))
-                shown.setToolTip(literal(cell_details(cell)))
+                place_of = (person.key, item.exercise)
+                mark = mark_words(board, *place_of)
+                texts = (cell_words(cell).rstrip(), mark)
+                shown = QTableWidgetItem(" · ".join(filter(None, texts)) + "   ")
+                details = (competence_line(board, *place_of), cell_details(cell))
+                shown.setToolTip(literal("\n".join(filter(None, details))))
                 if cell.passed:
-                    shown.setForeground(QColor(theme.now(theme.GOOD)))
+                    relapsed = mark.startswith(MARKS[CompetenceState.RELAPSE])
+                    colour = theme.WARNING if relapsed else theme.GOOD
+                    shown.setForeground(QColor(theme.now(colour)))
                 self.table.setItem(row, place, shown)
+        self.hint.setToolTip(literal(rule_words(board)) if board.items else "")
         self.hint.setText(
             tr("Nobody yet: add students, or a roster, on the next tab.")
             if not board.students
@@ -652,6 +668,7 @@ class CourseDialog(SettingsDialog):
         self._take, self._exercises, self._known = take, exercises, tuple(groups)
         self.id, self.title, self.groups = (QLineEdit(self) for _ in range(3))
         self.ordered = QCheckBox(tr("In order: the next opens when the one before was passed"))
+        self.rates = CompetenceRates(self)
         self.offered = QComboBox(self)
         self.offered.setAccessibleName(tr("Exercise to add"))
         for identifier, exercise in exercises.items():
@@ -674,6 +691,7 @@ class CourseDialog(SettingsDialog):
             (tr("Groups"), self.groups),
         ):
             add_row(form, name, field)
+        add_row(form, tr("Competence"), self.rates)
         row = QHBoxLayout()
         row.addWidget(self.offered, 1)
         row.addWidget(self.add)
@@ -747,6 +765,7 @@ class CourseDialog(SettingsDialog):
             "groups": groups,
             "ordered": self.ordered.isChecked(),
             "items": [self._item(row) for row in range(self.items.rowCount())],
+            "competence": self.rates.document(),
         }
         course, problems = checked(document, Course)
         if course is None:
@@ -759,6 +778,7 @@ class CourseDialog(SettingsDialog):
         first = str(place[0]) if place else ""
         lines = {"id": self.id, "title": self.title, "groups": self.groups}
         names = {"id": tr("File name"), "title": tr("Title"), "groups": tr("Groups")}
+        names["competence"] = tr("Competence")
         name, field = names.get(first, tr("Course")), lines.get(first)
         if first == "items" and len(place) > 1:
             row, key = int(place[1]), str(place[2]) if len(place) > 2 else ""
@@ -821,6 +841,7 @@ class CourseDialog(SettingsDialog):
         return found
 
     def _show(self, course: Course) -> None:
+        self.rates.show_rule(course.competence)
         self.id.setText(course.id)
         self.id.setReadOnly(True)
         self.title.setText(course.title)
@@ -840,9 +861,14 @@ class CurvePlot(QWidget):
 
     chosen = Signal(str)
 
-    def __init__(self, points: Sequence[CurvePoint], parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        points: Sequence[CurvePoint],
+        parent: QWidget | None = None,
+        standing: Competence | None = None,
+    ) -> None:
         super().__init__(parent)
-        self._points = points
+        self._points, self._standing = points, standing
         self.setMinimumSize(480, 260)
         self.setMouseTracking(True)
 
@@ -875,6 +901,8 @@ class CurvePlot(QWidget):
         ):
             painter.setPen(QPen(QColor(theme.now(colour)), 2.0, style))
             painter.drawPolyline([at(number, total) for number, total in enumerate(values, 1)])
+        colours = (theme.now(theme.GOOD), theme.now(theme.WARNING))
+        draw_changes(painter, self._standing, at, colours)
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(theme.now(theme.TEXT)))
         for number, point in enumerate(self._points, 1):
@@ -912,15 +940,21 @@ class CurveDialog(QDialog):
 
     Attributes:
         attempts: button that lists them all.
+        competence: says how he stands.
     """
 
     attempt_chosen = Signal(str)
 
-    def __init__(self, title: str, points: Sequence[CurvePoint], parent: QWidget) -> None:
+    def __init__(
+        self, title: str, board: ProgressBoard, key: str, exercise: str, parent: QWidget
+    ) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
-        self.resize(720, 420)
-        self.plot, self.attempts = CurvePlot(points, self), button(tr("Attempts…"))
+        self.resize(720, 440)
+        points, standing = board.curve(key, exercise), board.competence(key, exercise)
+        self.plot, self.attempts = CurvePlot(points, self, standing), button(tr("Attempts…"))
+        self.competence = label(competence_line(board, key, exercise))
+        self.competence.setToolTip(literal(rule_words(board)))
         words = tr(
             "{n} attempts that may be compared · ● points, click for the debrief · solid: personal "
             "best · dashed: median of the last five",
@@ -934,6 +968,7 @@ class CurveDialog(QDialog):
         row.addWidget(close)
         column = QVBoxLayout(self)
         column.addWidget(self.plot, 1)
+        column.addWidget(self.competence)
         column.addLayout(row)
         self.plot.chosen.connect(self._choose)
 

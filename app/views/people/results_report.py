@@ -19,14 +19,19 @@ from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.exchange.errors import ExportError
 from app.exchange.results import Results
+from app.scoring.competence import Competence, CompetenceState
 from app.scoring.tolerance import Band
 from app.session.board import CurvePoint
 from app.session.people import Person
 from app.views.debrief.report import BAND_INKS, DIM, INK, LINE, MARGIN, RULE, WIDTH, font
 from app.views.kit.text import date_text, listing, moment, number, tr, translated
+from app.views.people.competence_marks import competence_line, draw_changes, rule_words
 from app.views.people.report_pages import ROW, ReportPages, draw_pdf
 
 PASSED, MEDIAN = BAND_INKS[Band.GOOD], "#8a5a00"
+RELAPSED: Final = BAND_INKS[Band.FAIL]
+INKS: Final = {CompetenceState.COMPETENT: PASSED, CompetenceState.RELAPSE: RELAPSED}
+"""Of how somebody stands."""
 
 
 def student_report(
@@ -52,10 +57,14 @@ def student_report(
             sheet.paragraph(tr("Group: {groups}", groups=listing(person.groups)), colour=DIM)
         sheet.y += 6.0
         _exercises(sheet, results, person, titles)
+        if board.counted:
+            sheet.paragraph(rule_words(board), colour=DIM)
+            sheet.y += 8.0
         for item in board.items:
             points = board.curve(person.key, item.exercise)
             if points:
-                _curve(sheet, titles.get(item.exercise, item.exercise), points)
+                standing = board.competence(person.key, item.exercise)
+                _curve(sheet, titles.get(item.exercise, item.exercise), points, standing)
         _remarks(sheet, results, person, titles)
 
     return draw_pdf(fill, heading)
@@ -115,7 +124,7 @@ def _exercises(
 
     head()
     for item in results.board.items:
-        if sheet.need(2.0 * ROW):
+        if sheet.need(3.0 * ROW):
             head()
         cell = results.board.cells[person.key, item.exercise]
         named = titles.get(item.exercise, item.exercise) + f", v{item.version}"
@@ -126,6 +135,13 @@ def _exercises(
             colour = PASSED if cell.passed and place == 5 else INK
             sheet.text(MARGIN + left, words, colour=colour, width=180.0 if not place else 60.0)
         sheet.y += ROW
+        standing = results.board.competence(person.key, item.exercise)
+        if standing is not None:
+            colour = INKS.get(standing.state, DIM)
+            words = competence_line(results.board, person.key, item.exercise)
+            sheet.y -= 3.0
+            sheet.text(MARGIN + 10.0, words, 8.5, colour, width=460.0)
+            sheet.y += ROW - 3.0
         if cell.why:
             why = "; ".join(f"{n} {translated(why)}" for why, n in cell.why)
             sheet.y -= 3.0
@@ -134,7 +150,9 @@ def _exercises(
     sheet.y += ROW
 
 
-def _curve(sheet: ReportPages, title: str, points: Sequence[CurvePoint]) -> None:
+def _curve(
+    sheet: ReportPages, title: str, points: Sequence[CurvePoint], standing: Competence | None
+) -> None:
     """Draw points over the attempts, with the best until then and the moving median."""
     height = 110.0
     sheet.need(height + 40.0)
@@ -165,6 +183,8 @@ def _curve(sheet: ReportPages, title: str, points: Sequence[CurvePoint]) -> None
         painter.setPen(QPen(QColor(ink), 1.0, style))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawPolyline(QPolygonF([place(n, value) for n, value in enumerate(values, 1)]))
+    painter.setFont(font(7.5))
+    draw_changes(painter, standing, place, (PASSED, RELAPSED))
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(LINE))
     size = 2.2 if len(points) < 80 else 1.2

@@ -1,0 +1,71 @@
+"""Competence on the board, in a student's curve and in reports: words, marks and their colours."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+
+from app.scoring.competence import Competence, CompetenceState, Design, competence_words, design
+from app.session.board import ProgressBoard
+from app.views.kit.text import number, tr, translated
+
+MARKS: Final = {CompetenceState.COMPETENT: "★", CompetenceState.RELAPSE: "▼"}
+"""Short for a cell; who is not yet competent has none."""
+
+
+def mark_words(board: ProgressBoard, key: str, exercise: str) -> str:
+    """Return a mark with a word for a cell of the board; empty for whoever is not yet competent."""
+    standing = board.competence(key, exercise)
+    if standing is None or standing.state is CompetenceState.NOT_YET:
+        return ""
+    competent = standing.state is CompetenceState.COMPETENT
+    return f"{MARKS[standing.state]} " + (tr("competent") if competent else tr("relapse"))
+
+
+def competence_line(board: ProgressBoard, key: str, exercise: str) -> str:
+    """Say in a line how a student stands at a skill; empty without an attempt."""
+    standing = board.competence(key, exercise)
+    return "" if standing is None else translated(competence_words(standing))
+
+
+def rule_words(board: ProgressBoard) -> str:
+    """Say what "competent" means on a board: rates, errors, planned attempts, what is supposed."""
+    plan: Design = design(board.rule)
+    rule = board.rule
+    return tr(
+        "Competent: fails {acceptable} % of the time or less, not {unacceptable} % or more "
+        "(LC-CUSUM). Of those who are not, at most {false_alarm} % are called competent within "
+        "{attempts} attempts; of those who are, at most {missed} % are not. Attempts more: 80 % "
+        "interval, if the last attempts go on as they went.",
+        acceptable=number(100.0 * rule.acceptable, "g"),
+        unacceptable=number(100.0 * rule.unacceptable, "g"),
+        false_alarm=number(100.0 * rule.false_alarm, "g"),
+        attempts=plan.attempts,
+        missed=number(100.0 * rule.missed, "g"),
+    )
+
+
+def draw_changes(
+    painter: QPainter,
+    standing: Competence | None,
+    place: Callable[[int, float], QPointF],
+    colours: tuple[str, str],
+) -> None:
+    """Draw a line with its mark where a student became competent or relapsed.
+
+    Args:
+        painter: of the plot.
+        standing: None draws nothing.
+        place: of the attempt with that number (from 1) and of points, in the plot.
+        colours: of a line that says competent, and of one that says relapse.
+    """
+    for change in standing.changes if standing is not None else ():
+        competent = change.state is CompetenceState.COMPETENT
+        colour = QColor(colours[0] if competent else colours[1])
+        top, bottom = place(change.attempt, 100.0), place(change.attempt, 0.0)
+        painter.setPen(QPen(colour, 1.0, Qt.PenStyle.DotLine))
+        painter.drawLine(top, bottom)
+        painter.drawText(top + QPointF(3.0, 9.0), MARKS[change.state])
