@@ -72,7 +72,7 @@ def curve(
     course: CourseOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Show a student's points, best, median, competence (instructor)."""
+    """Show a student's points, median, competence (instructor)."""
     from app.exchange.results import competence_document
     from app.session.people import People
 
