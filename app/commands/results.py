@@ -198,11 +198,11 @@ def xapi(
     group: GroupOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Write attempts as statements of the Experience API (instructor).
+    """Write attempts as xAPI statements (instructor).
 
-    Students are accounts by pseudonym. The same attempt is the same statement, whenever it is
-    written. Void attempts, drills and what no person did are left out; in the queue they are taken
-    back.
+    Statements of the Experience API: students are accounts by pseudonym, and the same attempt is
+    the same statement, whenever it is written. Void attempts, drills and what no person did are
+    left out; in the queue they are taken back.
     """
     from app.commands.calibrate_parts import with_progress
     from app.exchange.results import write_results
