@@ -10,6 +10,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.exercise_bands import Name, bands
+from app.commands.exercise_mark import mark
 from app.commands.reader_language import template
 from app.commands.shown import Each
 from app.core.messages import joined, sentence, sentence_of
@@ -19,12 +20,13 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
 
-app = Commands(help="Exercises: list, new, validate, bands, pack, unpack, trial.")
+app = Commands(help="Exercises: list, new, validate, bands, mark, pack, trial.")
 
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 
 
 app.command()(bands)
+app.command()(mark)
 
 RANK = 190
 
@@ -376,6 +378,7 @@ def trial(
         Each("skills", row),
         template("all skills in their order: {ordered_seeds:.0%} of the seeds"),
         template("neighbouring skills ordered right, any seed with any: {ordered_share:.0%}"),
+        template("scripts, not people: what they score sets no pass mark"),
     )
     return Answer(facts, shown=shown)
 

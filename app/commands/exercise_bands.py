@@ -1,7 +1,8 @@
 """`acus exercise bands`: what counts as good with mouse, tablet or gamepad, from people's runs."""
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -13,6 +14,10 @@ from app.commands.shown import Each
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 from app.exercises.locks import HandName
+
+if TYPE_CHECKING:
+    from app.exercises.schema import Exercise
+    from app.session.people import Person
 
 Name = Annotated[
     str,
@@ -43,39 +48,26 @@ def bands(
 ) -> Answer:
     """Fit bands to experienced people (instructor). Printed; kept if asked."""
     from app.exercises.library import load_exercise
-    from app.exercises.writing import free_id, taken_ids
-    from app.exercises.writing import save as keep
     from app.session.index import Index
     from app.session.people import People
     from app.session.people_bands import attempts_of, fit
+    from app.session.people_marks import refuse_scripts
     from app.session.store import records_folder
 
     people = People()
     instructor(people)
-    if title and save:
-        raise ConfigurationError(
-            sentence("--title keeps a new exercise and --save a new version: give one of them")
-        )
+    refuse_both(title, save)
+    refuse_scripts(filter(None, (experienced, others)))
     chosen, index = load_exercise(exercise), Index(records_folder(folder))
     index.refresh()
     everybody, attempts, remarks = people.everybody(), index.attempts(), people.remarks()
-    those = [person for person in everybody if experienced in person.groups]
-    if others:
-        rest = [person for person in everybody if others in person.groups and person not in those]
-    else:
-        rest = [person for person in everybody if person not in those]
-    whom = others or sentence("everybody else")
     groups = [
         attempts_of(name, group, chosen, hand, attempts, remarks)
-        for name, group in ((experienced, those), (whom, rest))
+        for name, group in two_groups(everybody, experienced, others)
     ]
     fitted = fit(chosen, hand, *groups)
     changed = chosen.model_copy(update={"bands": {**chosen.bands, hand: fitted.bands}})
-    if title:
-        changed = changed.model_copy(
-            update={"id": free_id(title, taken_ids()), "version": 1, "title": title}
-        )
-    kept = keep(changed) if title or save else None
+    kept = kept_as(changed, title, save)
     facts = {
         "exercise": chosen.id,
         "version": chosen.version,
@@ -104,3 +96,40 @@ def bands(
             template("{kept:?kept: {kept.id}, version {kept.version}|not kept: --save or --title}"),
         ),
     )
+
+
+def refuse_both(title: str, save: bool) -> None:
+    """Let only one of the two ways of keeping an exercise be asked for.
+
+    Raises:
+        ConfigurationError: if both are.
+    """
+    if title and save:
+        raise ConfigurationError(
+            sentence("--title keeps a new exercise and --save a new version: give one of them")
+        )
+
+
+def two_groups(
+    everybody: "Sequence[Person]", experienced: str, others: str
+) -> "list[tuple[str, list[Person]]]":
+    """Return the experienced and the others, each with the name that people read."""
+    those = [person for person in everybody if experienced in person.groups]
+    rest = [
+        person
+        for person in everybody
+        if person not in those and (not others or others in person.groups)
+    ]
+    return [(experienced, those), (others or sentence("everybody else"), rest)]
+
+
+def kept_as(changed: "Exercise", title: str, save: bool) -> "Exercise | None":
+    """Keep an exercise under a new title, or as a new version; None where neither was asked for."""
+    from app.exercises.writing import free_id, taken_ids
+    from app.exercises.writing import save as keep
+
+    if title:
+        changed = changed.model_copy(
+            update={"id": free_id(title, taken_ids()), "version": 1, "title": title}
+        )
+    return keep(changed) if title or save else None

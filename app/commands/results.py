@@ -10,15 +10,13 @@ from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
 from app.commands.reader_language import local, template
+from app.commands.results_reliability import board_at, reliability
 from app.commands.shown import Each
 from app.core.messages import Sentence, counted, joined, sentence
 
 if TYPE_CHECKING:
     from app.exchange.moodle import GradeRule
     from app.exchange.results import Results
-    from app.session.board import ProgressBoard
-    from app.session.index import Indexed
-    from app.session.people import People
 
 CourseOption = Annotated[
     str,
@@ -39,10 +37,11 @@ RANK = 110
 
 
 def register(app: typer.Typer) -> None:
-    """Add `results board`, `results curve`, `results export` and `results xapi`."""
+    """Add `results board`, `curve`, `reliability`, `export` and `xapi`."""
     results = Commands(help="Results of students and groups.")
     results.command("board")(board)
     results.command("curve")(curve)
+    results.command("reliability")(reliability)
     results.command("export")(export)
     results.command("xapi")(xapi)
     app.add_typer(results, name="results")
@@ -51,14 +50,14 @@ def register(app: typer.Typer) -> None:
 def board(
     course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
 ) -> Answer:
-    """Show best, last, trend, time since and competence, by exercise (instructor).
+    """Show best, last, trend, time since, competence (instructor).
 
     Only comparable attempts count, none of a scripted trainee or an emulated board.
     """
     from app.exchange.results import board_rows
 
     instructor()
-    found, _, _ = _board(course, group, folder)
+    found, _, _ = board_at(course, group, folder)
     rows = board_rows(found)
     lines = [
         joined("", (f"{row['pseudonym']:20} {row['exercise']:24} ", _cell(row))) for row in rows
@@ -73,13 +72,13 @@ def curve(
     course: CourseOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Show a student's points with best and moving median, and competence (instructor)."""
+    """Show a student's points, median, competence (instructor)."""
     from app.exchange.results import competence_document
     from app.session.people import People
 
     instructor()
     person = People().find(pseudonym)
-    found, _, _ = _board(course, "", folder)
+    found, _, _ = board_at(course, "", folder)
     points = found.curve(person.key, exercise)
     standing = competence_document(found, person.key, exercise)
     facts = {
@@ -133,7 +132,7 @@ def export(
     place: Annotated[str, typer.Option("--place", help="pdf: where the course was.")] = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Write results as a table, grades, JSON or a report (instructor).
+    """Write results as table, grades, JSON or report (instructor).
 
     tidy: a row for each metric of each attempt. wide: a row for each student. moodle: grades as
     Moodle's gradebook imports them. json: all of it. pdf: report of the group, or of one student.
@@ -199,11 +198,11 @@ def xapi(
     group: GroupOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Write attempts as statements of the Experience API (instructor).
+    """Write attempts as xAPI statements (instructor).
 
-    Students are accounts by pseudonym. The same attempt is the same statement, whenever it is
-    written. Void attempts, drills and what no person did are left out; in the queue they are taken
-    back.
+    Statements of the Experience API: students are accounts by pseudonym, and the same attempt is
+    the same statement, whenever it is written. Void attempts, drills and what no person did are
+    left out; in the queue they are taken back.
     """
     from app.commands.calibrate_parts import with_progress
     from app.exchange.results import write_results
@@ -248,7 +247,7 @@ def _results(course: str, group: str, folder: Path | None, names: bool) -> "Resu
     from app.exercises.library import library
     from app.session.accounts import accounts_in
 
-    found, attempts, people = _board(course, group, folder)
+    found, attempts, people = board_at(course, group, folder)
     known = {person.key: person for person in people.everybody(names)}
     if course or group:
         shown = {person.key for person in found.students}
@@ -295,24 +294,6 @@ def _write_report(
     )
 
 
-def _board(
-    course: str, group: str, folder: Path | None
-) -> tuple["ProgressBoard", list["Indexed"], "People"]:
-    """Return board, attempts and people, as the instructor sees them."""
-    from app.commands.calibrate_parts import with_progress
-    from app.session.board import board_of
-    from app.session.course import find_course
-    from app.session.people import People
-    from app.session.store import records_folder
-
-    people, chosen = People(), find_course(course) if course else None
-    place = records_folder(folder)
-    found, attempts = with_progress(
-        lambda progress: board_of(place, people, chosen, group, progress=progress)
-    )
-    return found, attempts, people
-
-
 def _cell(row: dict[str, Any]) -> Sentence:
     """Return what a student did at one exercise."""
     points: str = "-"
@@ -328,6 +309,9 @@ def _cell(row: dict[str, Any]) -> Sentence:
             attempts=counted("{n} attempt", "{n} attempts", row["attempts"]),
             days=row["since_s"] / 86400.0,
         )
+        if row["near_mark"]:
+            near = sentence(", within the error of measurement of the mark")
+            points = joined("", (points, near))
     others = sentence(" ({others} not counted)", others=row["others"]) if row["others"] else ""
     competent = ("; ", row["competence"]["words"]) if row["competence"] else ()
     return joined("", (points, others, *competent))

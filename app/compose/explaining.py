@@ -22,7 +22,7 @@ from app.exercises.scene import (
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
 from app.mechanisms.profile import DeviceProfile
-from app.scoring.pass_line import pass_words
+from app.scoring.pass_line import pass_lines
 from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
 
@@ -53,18 +53,8 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     document["touch"] = _touch(exercise, profile)
-    document["pass_lines"] = _pass_lines(exercise)
+    document["pass_lines"] = pass_lines(exercise.tolerances)
     return document
-
-
-def _pass_lines(exercise: Exercise) -> list[dict[str, Any]]:
-    """Say of each pass line of an error what it is, and what share of measured hands passes it."""
-    lines = ((name, one.knots[2]) for name, one in exercise.tolerances.items())
-    return [
-        {"metric": name, "pass": passing, "words": words}
-        for name, passing in lines
-        if (words := pass_words(name, passing))
-    ]
 
 
 def _touch(exercise: Exercise, profile: DeviceProfile) -> dict[str, Any] | None:

@@ -21,3 +21,7 @@ class UrdfError(ExchangeError, ValueError):
 
 class TransformError(ExchangeError, ValueError):
     """A transform file that holds no rigid transform; names the file and what is wrong."""
+
+
+class MarkSheetError(ExchangeError, ValueError):
+    """A sheet of judges or examiners that cannot be used; names file, row, column and value."""

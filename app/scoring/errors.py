@@ -34,5 +34,9 @@ class ToleranceError(ScoringError, ValueError):
     """Bands that run against the direction of their metric."""
 
 
+class ReliabilityError(ScoringError, ValueError):
+    """Points that reliability or a pass mark cannot be told from; says what would do."""
+
+
 class ScoreFormatError(ScoringError, ValueError):
     """A stored score that cannot be read back."""

@@ -8,11 +8,13 @@ published mean and standard deviation: errors are never negative, and no list of
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 from app.core.messages import sentence
 from app.scoring.errors import ToleranceError
+from app.scoring.tolerance import Bands
 
 WISHED_MM: Final = 2.7
 """Mean largest error that the respondents would allow [mm]."""
@@ -88,3 +90,13 @@ def pass_words(metric: str, limit: float) -> str:
         at_least=at_least,
         shares=shares,
     )
+
+
+def pass_lines(tolerances: Mapping[str, Bands]) -> list[dict[str, Any]]:
+    """Say of each pass line of an error what it is, and what share of measured hands passes it."""
+    lines = ((name, one.knots[2]) for name, one in tolerances.items())
+    return [
+        {"metric": name, "pass": passing, "words": words}
+        for name, passing in lines
+        if (words := pass_words(name, passing))
+    ]

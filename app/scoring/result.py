@@ -77,6 +77,11 @@ class Score:
         )
 
     @property
+    def is_near_mark(self) -> bool:
+        """Return whether the total lies within the error of measurement of the pass mark."""
+        return self.rules.is_near_mark(self.total)
+
+    @property
     def unseen(self) -> bool:
         """Return whether it is void for want of pictures, not for what the hand did."""
         return bool(self.void_reason) and (not self.attempt_void or "cameras" in self.attempt_void)
@@ -145,7 +150,7 @@ class Score:
             "passed": self.passed,
             "void_reason": self.void_reason,
             "attempt_void": self.attempt_void,
-            "rules": self.rules.model_dump(),
+            "rules": self.rules.model_dump(exclude_none=True),
             "rows": [row.document() for row in self.rows],
             "tissues_met": None if self.met is None else [met.document() for met in self.met],
             "hard_fails": list(self.hard_fails),

@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Annotated, Any, Final
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from app.core.configuration import Strict
 from app.core.messages import sentence
 from app.scoring.met import FORBIDDABLE
+from app.scoring.pass_mark import SetMark
 from app.scoring.tolerance import PASS_UTILITY, Band, Tolerance, band, best_within, tolerance
 
 _KEPT_AT_ZERO = frozenset({"risk_breach"})
@@ -48,12 +49,32 @@ class ScoreRules(Strict):
         forbidden: kinds of tissue that fail the attempt if the needle meets them, unless the target
             lies in them: `bone`, `vessel` (2 mm radius and more), `gut`, `heart`, `lung` and the
             like; empty where what was met is information.
+        mark: how people set the pass mark; none where who wrote the exercise did.
     """
 
     pass_mark: Annotated[float, Field(ge=0.0, le=100.0)] = 60.0
     minimum_tracking: Annotated[float, Field(ge=0.0, le=100.0)] = 70.0
     maximum_pause: Annotated[float, Field(ge=0.0)] = 20.0
     forbidden: tuple[str, ...] = ()
+    mark: SetMark | None = None
+
+    @model_validator(mode="after")
+    def _mark_is_the_pass_mark(self) -> ScoreRules:
+        if self.mark is not None and self.mark.points != self.pass_mark:
+            raise ValueError(
+                sentence(
+                    "mark: people set {points:g} and pass_mark is {pass_mark:g}: leave mark out, "
+                    "or set both again by `acus exercise mark`",
+                    points=self.mark.points,
+                    pass_mark=self.pass_mark,
+                )
+            )
+        return self
+
+    def is_near_mark(self, total: float | None) -> bool:
+        """Return whether a total lies within the error of measurement of the pass mark."""
+        error = None if self.mark is None else self.mark.score_error
+        return total is not None and error is not None and abs(total - self.pass_mark) <= error
 
     @field_validator("forbidden")
     @classmethod

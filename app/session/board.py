@@ -23,6 +23,7 @@ from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.scoring.competence import RULE, Competence, CompetenceRule, competence
 from app.scoring.conditions import comparison_groups
+from app.scoring.pass_mark import is_near_mark
 from app.session.course import Course, CourseItem, courses, held_back, holding
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
@@ -50,6 +51,7 @@ class BoardCell:
         others: his attempts at this exercise that do not count here.
         why: of the others, each reason with how many.
         void: reasons of those that the instructor declared void, oldest first.
+        near_mark: whether the best lies within the error of measurement of the pass mark.
     """
 
     attempts: int = 0
@@ -61,6 +63,7 @@ class BoardCell:
     others: int = 0
     why: tuple[tuple[str, int], ...] = ()
     void: tuple[str, ...] = ()
+    near_mark: bool = False
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""
@@ -70,6 +73,7 @@ class BoardCell:
             "last": self.last,
             "trend": self.trend,
             "passed": self.passed,
+            "near_mark": self.near_mark,
             "since_s": None if self.since is None else self.since.total_seconds(),
             "others": self.others,
             "why": dict(self.why),
@@ -388,7 +392,17 @@ def _cell(
         others=others,
         why=why,
         void=void,
+        near_mark=_is_near_mark(max(some, key=lambda one: one.total or 0.0)),
     )
+
+
+def _is_near_mark(attempt: Indexed) -> bool:
+    """Return whether an attempt lies within the error of measurement of its pass mark.
+
+    Only where a mark says its error is the document read: a board has many cells.
+    """
+    has_error = '"score_error"' in attempt.document
+    return has_error and is_near_mark(attempt.summary.score or {})
 
 
 def _trend(totals: Sequence[float]) -> float | None:

@@ -45,3 +45,7 @@ class ReplayError(SessionError):
 
 class PeopleError(SessionError):
     """Something about a person that cannot be done; says what would be valid."""
+
+
+class ScriptsSetNoMarkError(SessionError):
+    """Scripts, not people: what they do sets no pass mark."""

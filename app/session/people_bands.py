@@ -37,11 +37,13 @@ class GroupAttempts:
         name: of the group, for people.
         people: how many they are.
         scores: of their attempts, as documents.
+        points: of each person's attempts.
     """
 
     name: str
     people: int
     scores: tuple[Mapping[str, Any], ...]
+    points: tuple[tuple[float, ...], ...] = ()
 
     def values(self, metric: str) -> list[float]:
         """Return the values of a metric, without its sign; of those that have one."""
@@ -107,7 +109,7 @@ def attempts_of(
         raise SessionError(
             sentence(
                 "{people} of {group} have attempts at {exercise}, version {version}, by {hand} "
-                "that count: bands need {least} at least",
+                "that count: {least} at least are needed",
                 people=counted("{n} person", "{n} people", len(some)),
                 group=name,
                 exercise=exercise.id,
@@ -117,7 +119,8 @@ def attempts_of(
             )
         )
     scores = tuple(one.summary.score or {} for own in some for one in own)
-    return GroupAttempts(name, len(some), scores)
+    points = tuple(tuple(one.total or 0.0 for one in own) for own in some)
+    return GroupAttempts(name, len(some), scores, points)
 
 
 def fit(

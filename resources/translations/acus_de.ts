@@ -968,6 +968,10 @@
             <translation type="unfinished">benachbarte Können richtig geordnet, jeder Startwert mit jedem: {ordered_share:.0%}</translation>
         </message>
         <message>
+            <source>scripts, not people: what they score sets no pass mark</source>
+            <translation type="unfinished">Skripte, keine Menschen: Was sie erreichen, setzt keine Bestehensgrenze</translation>
+        </message>
+        <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} berührt, {picked} gewählt  {rig}  {trusted:?gut|passt nicht}</translation>
         </message>
@@ -1030,6 +1034,10 @@
         <message>
             <source>{change:+.1f} a time</source>
             <translation type="unfinished">{change:+.1f} je Versuch</translation>
+        </message>
+        <message>
+            <source>, within the error of measurement of the mark</source>
+            <translation type="unfinished">, im Messfehler der Bestehensgrenze</translation>
         </message>
         <message>
             <source> ({others} not counted)</source>
@@ -1130,6 +1138,78 @@
         <message>
             <source>exercise</source>
             <translation type="unfinished">Übung</translation>
+        </message>
+        <message>
+            <source>attempt</source>
+            <translation type="unfinished">Versuch</translation>
+        </message>
+        <message>
+            <source>student x exercise</source>
+            <translation type="unfinished">Teilnehmer x Übung</translation>
+        </message>
+        <message>
+            <source>student x attempt</source>
+            <translation type="unfinished">Teilnehmer x Versuch</translation>
+        </message>
+        <message>
+            <source>exercise x attempt</source>
+            <translation type="unfinished">Übung x Versuch</translation>
+        </message>
+        <message>
+            <source>what is left</source>
+            <translation type="unfinished">Rest</translation>
+        </message>
+        <message>
+            <source>{students} students, {attempts} attempts that count (the newest {last} of each at most)</source>
+            <translation type="unfinished">{students} Teilnehmer, {attempts} Versuche, die zählen (höchstens die neuesten {last} von jedem)</translation>
+        </message>
+        <message>
+            <source>
+where the variance of a score comes from ({variance.estimator}, points²)</source>
+            <translation type="unfinished">
+woher die Varianz einer Punktzahl kommt ({variance.estimator}, Punkte²)</translation>
+        </message>
+        <message>
+            <source>
+agreement of the exercises, {complete} students who have them all</source>
+            <translation type="unfinished">
+Übereinstimmung der Übungen, {complete} Teilnehmer, die alle haben</translation>
+        </message>
+        <message>
+            <source>
+exercise                  points   discr.   score ±   ICC(2,1)   for 0.8   near mark</source>
+            <translation type="unfinished">
+Übung                     Punkte  Trennsch. Punkte ±  ICC(2,1)   für 0,8   nahe Grenze</translation>
+        </message>
+        <message>
+            <source>note: {}</source>
+            <translation type="unfinished">Hinweis: {}</translation>
+        </message>
+        <message>
+            <source>{near_mark:?{exercise}: within the error of measurement of the mark ({pass_mark:g}) are {near_mark}|}</source>
+            <translation type="unfinished">{near_mark:?{exercise}: Im Messfehler der Bestehensgrenze ({pass_mark:g}) liegen {near_mark}|}</translation>
+        </message>
+        <message>
+            <source>  below 0 by the closed form, taken as 0: {variance.below_zero}</source>
+            <translation type="unfinished">  nach der geschlossenen Form unter 0, als 0 genommen: {variance.below_zero}</translation>
+        </message>
+        <message>
+            <source>
+a single score is good to ± {decision.score_error.absolute:.1f} points (± {decision.score_error.relative:.1f} between students)</source>
+            <translation type="unfinished">
+eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte genau (± {decision.score_error.relative:.1f} zwischen Teilnehmern)</translation>
+        </message>
+        <message>
+            <source>mean of {decision.exercises} exercises:  attempts     G    Phi   score ±</source>
+            <translation type="unfinished">Mittel über {decision.exercises} Übungen:  Versuche     G    Phi  Punkte ±</translation>
+        </message>
+        <message>
+            <source>G 0.8 {decision.attempts_for_g:?by {decision.attempts_for_g:#1 attempt|# attempts}|by no number of attempts} at each of these exercises, Phi 0.8 {decision.attempts_for_phi:?by {decision.attempts_for_phi}|by none}</source>
+            <translation type="unfinished">G 0,8 {decision.attempts_for_g:?mit {decision.attempts_for_g:#1 Versuch|# Versuchen}|mit keiner Zahl von Versuchen} an jeder dieser Übungen, Phi 0,8 {decision.attempts_for_phi:?mit {decision.attempts_for_phi}|mit keiner}</translation>
+        </message>
+        <message>
+            <source>with {decision.attempts:#1 attempt|# attempts} each, G 0.8 {decision.exercises_for_g:?by {decision.exercises_for_g} such exercises|by no number of exercises}, Phi 0.8 {decision.exercises_for_phi:?by {decision.exercises_for_phi}|by none}</source>
+            <translation type="unfinished">mit je {decision.attempts:#1 Versuch|# Versuchen} G 0,8 {decision.exercises_for_g:?mit {decision.exercises_for_g} solchen Übungen|mit keiner Zahl von Übungen}, Phi 0,8 {decision.exercises_for_phi:?mit {decision.exercises_for_phi}|mit keiner}</translation>
         </message>
         <message>
             <source>state</source>
@@ -2404,8 +2484,80 @@
             <translation type="unfinished">{origin}: {name} ist {short}; gebraucht wird: {wanted}</translation>
         </message>
         <message>
+            <source>{file}, row {row}, column {column}: {reason}</source>
+            <translation type="unfinished">{file}, Zeile {row}, Spalte {column}: {reason}</translation>
+        </message>
+        <message>
+            <source>it is empty: give a number, or leave the row out</source>
+            <translation type="unfinished">sie ist leer: Geben Sie eine Zahl an oder lassen Sie die Zeile weg</translation>
+        </message>
+        <message>
+            <source>{cell!r} is no number from {low:g} to {high:g}</source>
+            <translation type="unfinished">{cell!r} ist keine Zahl von {low:g} bis {high:g}</translation>
+        </message>
+        <message>
+            <source>{file}, row 1, column {column}: there is no such exercise; columns are judge and ids as `acus exercise list` has them</source>
+            <translation type="unfinished">{file}, Zeile 1, Spalte {column}: Es gibt keine solche Übung; Spalten sind judge und Kennungen, wie `acus exercise list` sie nennt</translation>
+        </message>
+        <message>
+            <source>it is empty: name the judge</source>
+            <translation type="unfinished">sie ist leer: Nennen Sie den Beurteiler</translation>
+        </message>
+        <message>
+            <source>{judge!r} stands there twice: delete one row</source>
+            <translation type="unfinished">{judge!r} steht zweimal da: Löschen Sie eine Zeile</translation>
+        </message>
+        <message>
+            <source>it is empty: give the attempt's id</source>
+            <translation type="unfinished">sie ist leer: Geben Sie die Kennung des Versuchs an</translation>
+        </message>
+        <message>
+            <source>{attempt!r} is rated twice{hint}</source>
+            <translation type="unfinished">{attempt!r} ist zweimal beurteilt{hint}</translation>
+        </message>
+        <message>
+            <source>: delete one row, or name who rated in a column examiner</source>
+            <translation type="unfinished">: Löschen Sie eine Zeile oder nennen Sie in einer Spalte examiner, wer beurteilt hat</translation>
+        </message>
+        <message>
+            <source>{file}, row {row}, column attempt</source>
+            <translation type="unfinished">{file}, Zeile {row}, Spalte attempt</translation>
+        </message>
+        <message>
+            <source>{file}, row {row}: {reason}: save it anew as “CSV UTF-8”</source>
+            <translation type="unfinished">{file}, Zeile {row}: {reason}: Speichern Sie die Datei neu als „CSV UTF-8“</translation>
+        </message>
+        <message>
+            <source>{file}, row {row}: {cells} cells, the heading has {columns}</source>
+            <translation type="unfinished">{file}, Zeile {row}: {cells} Zellen, die Kopfzeile hat {columns}</translation>
+        </message>
+        <message>
+            <source>{file} has a heading and no rows: fill it</source>
+            <translation type="unfinished">{file} hat eine Kopfzeile und keine Zeilen: Füllen Sie das Blatt aus</translation>
+        </message>
+        <message>
+            <source>{file}, row 1: the heading needs the column {column}</source>
+            <translation type="unfinished">{file}, Zeile 1: Die Kopfzeile braucht die Spalte {column}</translation>
+        </message>
+        <message>
+            <source>{file}, row 1: the heading has {column!r} twice, or no name: name each column once</source>
+            <translation type="unfinished">{file}, Zeile 1: Die Kopfzeile hat {column!r} zweimal oder keinen Namen: Benennen Sie jede Spalte einmal</translation>
+        </message>
+        <message>
+            <source>{file}, row 1, column {column}: it is not known; columns are {columns}</source>
+            <translation type="unfinished">{file}, Zeile 1, Spalte {column}: nicht bekannt; Spalten sind {columns}</translation>
+        </message>
+        <message>
             <source>cannot read {path}: {reason}</source>
             <translation type="unfinished">{path} lässt sich nicht lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>{file} is not UTF-8: save it as “CSV UTF-8” and try again</source>
+            <translation type="unfinished">{file} ist nicht UTF-8: Speichern Sie die Datei als „CSV UTF-8“ und versuchen Sie es erneut</translation>
+        </message>
+        <message>
+            <source>{file} is no text: save it as “CSV UTF-8” and try again</source>
+            <translation type="unfinished">{file} ist kein Text: Speichern Sie die Datei als „CSV UTF-8“ und versuchen Sie es erneut</translation>
         </message>
         <message>
             <source>{origin}: {reason}</source>
@@ -5342,6 +5494,10 @@
         <message>
             <source>{closest_mm} mm from {name}, limit {limit_mm} mm, at {time} s, inside for {inside_s} s: all must be finite numbers, limit and time inside not negative</source>
             <translation type="unfinished">{closest_mm} mm von {name}, Grenze {limit_mm} mm, bei {time} s, {inside_s} s lang innerhalb: Alle Zahlen müssen endlich sein, die Grenze und die Zeit innerhalb nicht negativ</translation>
+        </message>
+        <message>
+            <source>mark: people set {points:g} and pass_mark is {pass_mark:g}: leave mark out, or set both again by `acus exercise mark`</source>
+            <translation type="unfinished">mark: Menschen haben {points:g} gesetzt, und pass_mark ist {pass_mark:g}: Lassen Sie mark weg oder setzen Sie beides neu mit `acus exercise mark`</translation>
         </message>
         <message>
             <source>no tissue is called {unknown_name!r}; there are {forbiddable}</source>
@@ -9467,6 +9623,10 @@ Anteil</translation>
 [s]</translation>
         </message>
         <message>
+            <source>What scripted skills would score (scripts, not people)</source>
+            <translation type="unfinished">Was die Fähigkeiten aus Skripten erreichen würden (Skripte, keine Menschen)</translation>
+        </message>
+        <message>
             <source>bone</source>
             <translation type="unfinished">Knochen</translation>
         </message>
@@ -9509,10 +9669,6 @@ Anteil</translation>
         <message>
             <source>computed by</source>
             <translation type="unfinished">berechnet mit</translation>
-        </message>
-        <message>
-            <source>What scripted skills would score</source>
-            <translation type="unfinished">Was Skripte verschiedenen Könnens erreichen würden</translation>
         </message>
         <message>
             <source>pass</source>
@@ -11934,6 +12090,10 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>✖ Not reached yet</source>
             <translation type="unfinished">✖ Noch nicht erreicht</translation>
+        </message>
+        <message>
+            <source>Within the error of measurement of the mark ({mark:g} ± {error:.1f} points): another attempt may fall on its other side.</source>
+            <translation type="unfinished">Im Messfehler der Bestehensgrenze ({mark:g} ± {error:.1f} Punkte): Ein weiterer Versuch kann auf die andere Seite fallen.</translation>
         </message>
         <message>
             <source>It counts for nothing. The pictures of the simulated cameras came too late: this computer was too busy. Close other programs, then try again.</source>
@@ -14982,6 +15142,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished"> · {n} ungültig</translation>
         </message>
         <message>
+            <source> · near the mark</source>
+            <translation type="unfinished"> · nahe der Grenze</translation>
+        </message>
+        <message>
             <source>– ({n} not counted)</source>
             <translation type="unfinished">– (nicht gezählt: {n})</translation>
         </message>
@@ -15007,6 +15171,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
                 <numerusform>{n} Versuch zählt</numerusform>
                 <numerusform>{n} Versuche zählen</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>The best is within the error of measurement of the mark.</source>
+            <translation type="unfinished">Der beste liegt im Messfehler der Bestehensgrenze.</translation>
         </message>
         <message>
             <source>trend {trend:+.1f} points a time</source>
@@ -15382,6 +15550,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
             <translation type="unfinished">Die Unterschriften gelten für alle {pages} Seiten: die Noten stehen auf den Seiten nach dieser.</translation>
+        </message>
+        <message>
+            <source>≈ the best is within the error of measurement of the mark.</source>
+            <translation type="unfinished">≈ der beste liegt im Messfehler der Bestehensgrenze.</translation>
         </message>
         <message>
             <source>★ competent, ▼ relapse.</source>
@@ -19806,8 +19978,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{kept:?behalten: {kept.id}, Version {kept.version}|nicht behalten: --save oder --title}</translation>
         </message>
         <message>
-            <source>{people} of {group} have attempts at {exercise}, version {version}, by {hand} that count: bands need {least} at least</source>
-            <translation type="unfinished">{group}: {people} mit Versuchen an {exercise}, Version {version}, mit {hand}, die zählen; Bänder brauchen mindestens {least}</translation>
+            <source>{people} of {group} have attempts at {exercise}, version {version}, by {hand} that count: {least} at least are needed</source>
+            <translation type="unfinished">{group}: {people} mit Versuchen an {exercise}, Version {version}, mit {hand}, die zählen; mindestens {least} sind nötig</translation>
         </message>
         <message>
             <source>nothing parts {experienced} from {others} in {exercise}: of no metric that says how the needle went are the others worse; its tolerances stay</source>
@@ -20356,6 +20528,142 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>told apart in {n} attempts</source>
             <translation type="unfinished">in {n} Versuchen zu unterscheiden</translation>
+        </message>
+        <message>
+            <source>give one way to set the mark: --angoff FILE, --borderline FILE or --experienced GROUP</source>
+            <translation type="unfinished">geben Sie einen Weg an, die Grenze zu setzen: --angoff DATEI, --borderline DATEI oder --experienced GRUPPE</translation>
+        </message>
+        <message>
+            <source>{exercise}, version {version}: pass mark {points:.1f} ± {standard_error:.1f} points by {method} ({people:#1 person|# people}{attempts:?, {attempts} attempts|}); it was {before:g}</source>
+            <translation type="unfinished">{exercise}, Version {version}: Bestehensgrenze {points:.1f} ± {standard_error:.1f} Punkte nach {method} ({people:#1 Person|# Personen}{attempts:?, {attempts} Versuche|}); bisher {before:g}</translation>
+        </message>
+        <message>
+            <source>{judges_agreement:?judges agree over the exercises of the sheet: ICC(2,k) {judges_agreement.value:.2f} ({judges_agreement.lower:.2f} … {judges_agreement.upper:.2f})|}</source>
+            <translation type="unfinished">{judges_agreement:?Übereinstimmung der Beurteiler über die Übungen des Blatts: ICC(2,k) {judges_agreement.value:.2f} ({judges_agreement.lower:.2f} … {judges_agreement.upper:.2f})|}</translation>
+        </message>
+        <message>
+            <source>{score_error:?a single score is good to ± {score_error:.1f} points (of people who repeated it): a score within that of the mark is told as within the error of measurement|the standard error of a score is not known: 2 people with 2 attempts that count are needed}</source>
+            <translation type="unfinished">{score_error:?eine einzelne Punktzahl ist auf ± {score_error:.1f} Punkte genau (von Personen, die wiederholt haben): So nahe an der Grenze heißt sie im Messfehler|der Standardfehler einer Punktzahl ist nicht bekannt: 2 Personen mit 2 Versuchen, die zählen, sind nötig}</translation>
+        </message>
+        <message>
+            <source>{people_here:?{people_reach_it} of {people_here} people here reach it now|}</source>
+            <translation type="unfinished">{people_here:?{people_reach_it} von {people_here} Personen hier erreichen sie jetzt|}</translation>
+        </message>
+        <message>
+            <source>published hands, {hands}: {share:.0%} would pass, were all else perfect</source>
+            <translation type="unfinished">veröffentlichte Hände, {hands}: {share:.0%} würden bestehen, wäre alles andere vollkommen</translation>
+        </message>
+        <message>
+            <source>{metric} passes to {pass:g}: {words}</source>
+            <translation type="unfinished">{metric} besteht bis {pass:g}: {words}</translation>
+        </message>
+        <message>
+            <source>{file} has no column {exercise}: give each judge's estimate of it</source>
+            <translation type="unfinished">{file} hat keine Spalte {exercise}: Geben Sie die Schätzung jedes Beurteilers dafür an</translation>
+        </message>
+        <message>
+            <source>the points do not part the two groups: half of both are on the wrong side of any mark; choose groups that differ more, or another method</source>
+            <translation type="unfinished">die Punkte trennen die beiden Gruppen nicht: Bei jeder Grenze steht die Hälfte beider auf der falschen Seite; wählen Sie Gruppen, die sich mehr unterscheiden, oder ein anderes Verfahren</translation>
+        </message>
+        <message>
+            <source>points need the axes student, exercise and occasion, all finite</source>
+            <translation type="unfinished">Punkte brauchen die Achsen Teilnehmer, Übung und Gelegenheit, alle endlich</translation>
+        </message>
+        <message>
+            <source>students with points: {students}; reliability needs 2 students at least: take in more</source>
+            <translation type="unfinished">Teilnehmer mit Punkten: {students}; Zuverlässigkeit braucht mindestens 2 Teilnehmer: Nehmen Sie mehr auf</translation>
+        </message>
+        <message>
+            <source>each student has points once only: reliability needs 2 exercises or 2 attempts at least</source>
+            <translation type="unfinished">jeder Teilnehmer hat nur einmal Punkte: Zuverlässigkeit braucht mindestens 2 Übungen oder 2 Versuche</translation>
+        </message>
+        <message>
+            <source>all {attempts} attempts have the same points: nothing varies; take in more students, or harder exercises</source>
+            <translation type="unfinished">alle {attempts} Versuche haben dieselben Punkte: Nichts schwankt; nehmen Sie mehr Teilnehmer auf oder schwerere Übungen</translation>
+        </message>
+        <message>
+            <source>all {students} students have the same mean points: nothing tells them apart; take in more students, or a harder exercise</source>
+            <translation type="unfinished">alle {students} Teilnehmer haben im Mittel dieselben Punkte: Nichts unterscheidet sie; nehmen Sie mehr Teilnehmer auf oder eine schwerere Übung</translation>
+        </message>
+        <message>
+            <source>{columns} column of points: agreement needs 2 exercises or 2 attempts at least</source>
+            <translation type="unfinished">Spalten mit Punkten: {columns}; Übereinstimmung braucht mindestens 2 Übungen oder 2 Versuche</translation>
+        </message>
+        <message>
+            <source>the points in row {row}, column {column} are missing: leave that row or that column out, or complete it</source>
+            <translation type="unfinished">die Punkte in Zeile {row}, Spalte {column} fehlen: Lassen Sie die Zeile oder die Spalte weg oder ergänzen Sie sie</translation>
+        </message>
+        <message>
+            <source>students with 2 attempts or more: {students}; the standard error of a score needs 2 such students at least: let them repeat the exercise</source>
+            <translation type="unfinished">Teilnehmer mit 2 Versuchen oder mehr: {students}; der Standardfehler einer Punktzahl braucht mindestens 2 davon: Lassen Sie die Übung wiederholen</translation>
+        </message>
+        <message>
+            <source>the points repeat exactly and leave nothing to chance, with cells missing: take in more attempts, or a set in which every student has every exercise</source>
+            <translation type="unfinished">die Punkte wiederholen sich genau und lassen nichts dem Zufall, und Zellen fehlen: Nehmen Sie mehr Versuche auf oder nur Teilnehmer, die jede Übung haben</translation>
+        </message>
+        <message>
+            <source>too many cells are missing: these {attempts} attempts do not tell {effect} from {other}; take in students who have the same exercises, twice at least</source>
+            <translation type="unfinished">zu viele Zellen fehlen: Diese {attempts} Versuche unterscheiden {effect} nicht von {other}; nehmen Sie Teilnehmer auf, die dieselben Übungen haben, mindestens zweimal</translation>
+        </message>
+        <message>
+            <source>{judges} judges: a mark by Angoff needs {least} at least; ask more</source>
+            <translation type="unfinished">Beurteiler: {judges}; eine Grenze nach Angoff braucht mindestens {least}: Fragen Sie mehr</translation>
+        </message>
+        <message>
+            <source>{attempts} rated attempts: borderline regression needs {least} at least; rate more</source>
+            <translation type="unfinished">beurteilte Versuche: {attempts}; die Borderline-Regression braucht mindestens {least}: Beurteilen Sie mehr</translation>
+        </message>
+        <message>
+            <source>all ratings are {rating:g}: ratings without spread have no line; rate attempts of other quality as well</source>
+            <translation type="unfinished">alle Beurteilungen sind {rating:g}: Ohne Streuung gibt es keine Gerade; beurteilen Sie auch Versuche anderer Güte</translation>
+        </message>
+        <message>
+            <source>ratings go from {least:g} to {most:g}, and borderline is {borderline:g}: rate attempts on both sides of it, or give the rating that means borderline by --at</source>
+            <translation type="unfinished">die Beurteilungen gehen von {least:g} bis {most:g}, und der Grenzfall ist {borderline:g}: Beurteilen Sie Versuche auf beiden Seiten oder geben Sie mit --at an, welche Beurteilung den Grenzfall meint</translation>
+        </message>
+        <message>
+            <source>points do not rise with the ratings ({slope:.1f} points a step): the ratings say something else than the score; see whether the scale runs the right way</source>
+            <translation type="unfinished">die Punkte steigen nicht mit den Beurteilungen ({slope:.1f} Punkte je Stufe): Die Beurteilungen sagen anderes als die Punktzahl; sehen Sie nach, ob die Skala richtig herum läuft</translation>
+        </message>
+        <message>
+            <source>the line gives {mark:.0f} points at {borderline:g}, beyond 0 to 100: rate more attempts near borderline</source>
+            <translation type="unfinished">die Gerade gibt {mark:.0f} Punkte bei {borderline:g}, außerhalb von 0 bis 100: Beurteilen Sie mehr Versuche nahe am Grenzfall</translation>
+        </message>
+        <message>
+            <source>{name!r} is a scripted skill: scripts, not people, and scripts set no mark; name a group of people, or judges</source>
+            <translation type="unfinished">{name!r} ist ein Können aus Skripten: Skripte, keine Menschen, und Skripte setzen keine Grenze; nennen Sie eine Gruppe von Menschen oder Beurteiler</translation>
+        </message>
+        <message>
+            <source>{name!r} is no attempt here: `acus session list` has the ids</source>
+            <translation type="unfinished">{name!r} ist hier kein Versuch: `acus session list` nennt die Kennungen</translation>
+        </message>
+        <message>
+            <source>{name!r} was done by a script: scripts, not people, and scripts set no mark; delete the row</source>
+            <translation type="unfinished">{name!r} stammt von einem Skript: Skripte, keine Menschen, und Skripte setzen keine Grenze; löschen Sie die Zeile</translation>
+        </message>
+        <message>
+            <source>{name!r} is of {other}, version {other_version}, not of {exercise}, version {version}: delete the row</source>
+            <translation type="unfinished">{name!r} gehört zu {other}, Version {other_version}, nicht zu {exercise}, Version {version}: Löschen Sie die Zeile</translation>
+        </message>
+        <message>
+            <source>{name!r} does not count (void, no score, a drill, or not this station's): delete the row</source>
+            <translation type="unfinished">{name!r} zählt nicht (ungültig, ohne Punkte, ein Drill oder nicht von dieser Station): Löschen Sie die Zeile</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts were left out: scripts, not people</source>
+            <translation type="unfinished">ausgelassene Versuche: {attempts}; Skripte, keine Menschen</translation>
+        </message>
+        <message>
+            <source>one exercise only: how students would do at others is not known; have them do a second one</source>
+            <translation type="unfinished">nur eine Übung: Wie Teilnehmer bei anderen abschnitten, ist nicht bekannt; lassen Sie eine zweite machen</translation>
+        </message>
+        <message>
+            <source>one attempt each: how far a second one would differ is not known; have some students repeat an exercise</source>
+            <translation type="unfinished">je ein Versuch: Wie weit ein zweiter abwiche, ist nicht bekannt; lassen Sie einige Teilnehmer eine Übung wiederholen</translation>
+        </message>
+        <message>
+            <source>{student} has no attempt at {exercise} that counts, and {cells} such cells are empty in all: agreement and discrimination are of the {complete} students who have every exercise</source>
+            <translation type="unfinished">{student} hat keinen Versuch an {exercise}, der zählt, und insgesamt sind {cells} solche Zellen leer: Übereinstimmung und Trennschärfe sind die der {complete} Teilnehmer, die jede Übung haben</translation>
         </message>
     </context>
 </TS>

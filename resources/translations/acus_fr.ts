@@ -968,6 +968,10 @@
             <translation type="unfinished">niveaux voisins bien ordonnés, toute graine avec toute autre : {ordered_share:.0%}</translation>
         </message>
         <message>
+            <source>scripts, not people: what they score sets no pass mark</source>
+            <translation type="unfinished">des scripts, pas des personnes : leurs scores ne fixent aucun seuil de réussite</translation>
+        </message>
+        <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} touchés, {picked} désignés  {rig}  {trusted:?bon|ne convient pas}</translation>
         </message>
@@ -1030,6 +1034,10 @@
         <message>
             <source>{change:+.1f} a time</source>
             <translation type="unfinished">{change:+.1f} par essai</translation>
+        </message>
+        <message>
+            <source>, within the error of measurement of the mark</source>
+            <translation type="unfinished">, dans l’erreur de mesure du seuil</translation>
         </message>
         <message>
             <source> ({others} not counted)</source>
@@ -1130,6 +1138,78 @@
         <message>
             <source>exercise</source>
             <translation type="unfinished">exercice</translation>
+        </message>
+        <message>
+            <source>attempt</source>
+            <translation type="unfinished">essai</translation>
+        </message>
+        <message>
+            <source>student x exercise</source>
+            <translation type="unfinished">étudiant x exercice</translation>
+        </message>
+        <message>
+            <source>student x attempt</source>
+            <translation type="unfinished">étudiant x essai</translation>
+        </message>
+        <message>
+            <source>exercise x attempt</source>
+            <translation type="unfinished">exercice x essai</translation>
+        </message>
+        <message>
+            <source>what is left</source>
+            <translation type="unfinished">reste</translation>
+        </message>
+        <message>
+            <source>{students} students, {attempts} attempts that count (the newest {last} of each at most)</source>
+            <translation type="unfinished">{students} étudiants, {attempts} essais qui comptent (au plus les {last} plus récents de chacun)</translation>
+        </message>
+        <message>
+            <source>
+where the variance of a score comes from ({variance.estimator}, points²)</source>
+            <translation type="unfinished">
+d’où vient la variance d’un score ({variance.estimator}, points²)</translation>
+        </message>
+        <message>
+            <source>
+agreement of the exercises, {complete} students who have them all</source>
+            <translation type="unfinished">
+accord des exercices, {complete} étudiants qui les ont tous</translation>
+        </message>
+        <message>
+            <source>
+exercise                  points   discr.   score ±   ICC(2,1)   for 0.8   near mark</source>
+            <translation type="unfinished">
+exercice                  points  discrim.  score ±   ICC(2,1)  pour 0,8   près du seuil</translation>
+        </message>
+        <message>
+            <source>note: {}</source>
+            <translation type="unfinished">remarque : {}</translation>
+        </message>
+        <message>
+            <source>{near_mark:?{exercise}: within the error of measurement of the mark ({pass_mark:g}) are {near_mark}|}</source>
+            <translation type="unfinished">{near_mark:?{exercise} : dans l’erreur de mesure du seuil ({pass_mark:g}) se trouvent {near_mark}|}</translation>
+        </message>
+        <message>
+            <source>  below 0 by the closed form, taken as 0: {variance.below_zero}</source>
+            <translation type="unfinished">  sous 0 par la forme close, pris pour 0 : {variance.below_zero}</translation>
+        </message>
+        <message>
+            <source>
+a single score is good to ± {decision.score_error.absolute:.1f} points (± {decision.score_error.relative:.1f} between students)</source>
+            <translation type="unfinished">
+un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {decision.score_error.relative:.1f} entre étudiants)</translation>
+        </message>
+        <message>
+            <source>mean of {decision.exercises} exercises:  attempts     G    Phi   score ±</source>
+            <translation type="unfinished">moyenne de {decision.exercises} exercices :  essais    G    Phi   score ±</translation>
+        </message>
+        <message>
+            <source>G 0.8 {decision.attempts_for_g:?by {decision.attempts_for_g:#1 attempt|# attempts}|by no number of attempts} at each of these exercises, Phi 0.8 {decision.attempts_for_phi:?by {decision.attempts_for_phi}|by none}</source>
+            <translation type="unfinished">G 0,8 {decision.attempts_for_g:?avec {decision.attempts_for_g:#1 essai|# essais}|avec aucun nombre d’essais} à chacun de ces exercices, Phi 0,8 {decision.attempts_for_phi:?avec {decision.attempts_for_phi}|avec aucun}</translation>
+        </message>
+        <message>
+            <source>with {decision.attempts:#1 attempt|# attempts} each, G 0.8 {decision.exercises_for_g:?by {decision.exercises_for_g} such exercises|by no number of exercises}, Phi 0.8 {decision.exercises_for_phi:?by {decision.exercises_for_phi}|by none}</source>
+            <translation type="unfinished">avec {decision.attempts:#1 essai|# essais} par exercice, G 0,8 {decision.exercises_for_g:?avec {decision.exercises_for_g} exercices de ce genre|avec aucun nombre d’exercices}, Phi 0,8 {decision.exercises_for_phi:?avec {decision.exercises_for_phi}|avec aucun}</translation>
         </message>
         <message>
             <source>state</source>
@@ -2404,8 +2484,80 @@
             <translation type="unfinished">{origin} : {name} vaut {short} ; il faut : {wanted}</translation>
         </message>
         <message>
+            <source>{file}, row {row}, column {column}: {reason}</source>
+            <translation type="unfinished">{file}, ligne {row}, colonne {column} : {reason}</translation>
+        </message>
+        <message>
+            <source>it is empty: give a number, or leave the row out</source>
+            <translation type="unfinished">elle est vide : donnez un nombre ou supprimez la ligne</translation>
+        </message>
+        <message>
+            <source>{cell!r} is no number from {low:g} to {high:g}</source>
+            <translation type="unfinished">{cell!r} n’est pas un nombre de {low:g} à {high:g}</translation>
+        </message>
+        <message>
+            <source>{file}, row 1, column {column}: there is no such exercise; columns are judge and ids as `acus exercise list` has them</source>
+            <translation type="unfinished">{file}, ligne 1, colonne {column} : il n’y a pas d’exercice de ce nom ; les colonnes sont judge et les identifiants que donne `acus exercise list`</translation>
+        </message>
+        <message>
+            <source>it is empty: name the judge</source>
+            <translation type="unfinished">elle est vide : nommez le juge</translation>
+        </message>
+        <message>
+            <source>{judge!r} stands there twice: delete one row</source>
+            <translation type="unfinished">{judge!r} y figure deux fois : supprimez une ligne</translation>
+        </message>
+        <message>
+            <source>it is empty: give the attempt's id</source>
+            <translation type="unfinished">elle est vide : donnez l’identifiant de l’essai</translation>
+        </message>
+        <message>
+            <source>{attempt!r} is rated twice{hint}</source>
+            <translation type="unfinished">{attempt!r} est noté deux fois{hint}</translation>
+        </message>
+        <message>
+            <source>: delete one row, or name who rated in a column examiner</source>
+            <translation type="unfinished">: supprimez une ligne ou nommez l’examinateur dans une colonne examiner</translation>
+        </message>
+        <message>
+            <source>{file}, row {row}, column attempt</source>
+            <translation type="unfinished">{file}, ligne {row}, colonne attempt</translation>
+        </message>
+        <message>
+            <source>{file}, row {row}: {reason}: save it anew as “CSV UTF-8”</source>
+            <translation type="unfinished">{file}, ligne {row} : {reason} : enregistrez-le de nouveau en « CSV UTF-8 »</translation>
+        </message>
+        <message>
+            <source>{file}, row {row}: {cells} cells, the heading has {columns}</source>
+            <translation type="unfinished">{file}, ligne {row} : {cells} cellules, l’en-tête en a {columns}</translation>
+        </message>
+        <message>
+            <source>{file} has a heading and no rows: fill it</source>
+            <translation type="unfinished">{file} a un en-tête et aucune ligne : remplissez-le</translation>
+        </message>
+        <message>
+            <source>{file}, row 1: the heading needs the column {column}</source>
+            <translation type="unfinished">{file}, ligne 1 : il faut à l’en-tête la colonne {column}</translation>
+        </message>
+        <message>
+            <source>{file}, row 1: the heading has {column!r} twice, or no name: name each column once</source>
+            <translation type="unfinished">{file}, ligne 1 : l’en-tête a {column!r} deux fois, ou pas de nom : nommez chaque colonne une fois</translation>
+        </message>
+        <message>
+            <source>{file}, row 1, column {column}: it is not known; columns are {columns}</source>
+            <translation type="unfinished">{file}, ligne 1, colonne {column} : inconnue ; les colonnes sont {columns}</translation>
+        </message>
+        <message>
             <source>cannot read {path}: {reason}</source>
             <translation type="unfinished">impossible de lire {path} : {reason}</translation>
+        </message>
+        <message>
+            <source>{file} is not UTF-8: save it as “CSV UTF-8” and try again</source>
+            <translation type="unfinished">{file} n’est pas en UTF-8 : enregistrez-le en « CSV UTF-8 » et réessayez</translation>
+        </message>
+        <message>
+            <source>{file} is no text: save it as “CSV UTF-8” and try again</source>
+            <translation type="unfinished">{file} n’est pas du texte : enregistrez-le en « CSV UTF-8 » et réessayez</translation>
         </message>
         <message>
             <source>{origin}: {reason}</source>
@@ -5342,6 +5494,10 @@
         <message>
             <source>{closest_mm} mm from {name}, limit {limit_mm} mm, at {time} s, inside for {inside_s} s: all must be finite numbers, limit and time inside not negative</source>
             <translation type="unfinished">{closest_mm} mm de {name}, limite {limit_mm} mm, à {time} s, à l’intérieur pendant {inside_s} s : tous les nombres doivent être finis, la limite et le temps à l’intérieur non négatifs</translation>
+        </message>
+        <message>
+            <source>mark: people set {points:g} and pass_mark is {pass_mark:g}: leave mark out, or set both again by `acus exercise mark`</source>
+            <translation type="unfinished">mark : des personnes ont fixé {points:g}, et pass_mark est {pass_mark:g} : supprimez mark, ou fixez les deux de nouveau avec `acus exercise mark`</translation>
         </message>
         <message>
             <source>no tissue is called {unknown_name!r}; there are {forbiddable}</source>
@@ -9467,6 +9623,10 @@ part</translation>
 [s]</translation>
         </message>
         <message>
+            <source>What scripted skills would score (scripts, not people)</source>
+            <translation type="unfinished">Ce qu’obtiendraient les habiletés scriptées (des scripts, pas des personnes)</translation>
+        </message>
+        <message>
             <source>bone</source>
             <translation type="unfinished">os</translation>
         </message>
@@ -9509,10 +9669,6 @@ part</translation>
         <message>
             <source>computed by</source>
             <translation type="unfinished">calculé par</translation>
-        </message>
-        <message>
-            <source>What scripted skills would score</source>
-            <translation type="unfinished">Ce qu’obtiendraient des scripts d’habileté différente</translation>
         </message>
         <message>
             <source>pass</source>
@@ -11934,6 +12090,10 @@ Lettres : directions du patient
         <message>
             <source>✖ Not reached yet</source>
             <translation type="unfinished">✖ Pas encore atteint</translation>
+        </message>
+        <message>
+            <source>Within the error of measurement of the mark ({mark:g} ± {error:.1f} points): another attempt may fall on its other side.</source>
+            <translation type="unfinished">Dans l’erreur de mesure du seuil ({mark:g} ± {error:.1f} points) : un autre essai peut tomber de l’autre côté.</translation>
         </message>
         <message>
             <source>It counts for nothing. The pictures of the simulated cameras came too late: this computer was too busy. Close other programs, then try again.</source>
@@ -14982,6 +15142,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished"> · nuls : {n}</translation>
         </message>
         <message>
+            <source> · near the mark</source>
+            <translation type="unfinished"> · près du seuil</translation>
+        </message>
+        <message>
             <source>– ({n} not counted)</source>
             <translation type="unfinished">– (non comptés : {n})</translation>
         </message>
@@ -15007,6 +15171,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
                 <numerusform>{n} essai compte</numerusform>
                 <numerusform>{n} essais comptent</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>The best is within the error of measurement of the mark.</source>
+            <translation type="unfinished">Le meilleur est dans l’erreur de mesure du seuil.</translation>
         </message>
         <message>
             <source>trend {trend:+.1f} points a time</source>
@@ -15382,6 +15550,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>The signatures are for all {pages} pages: the marks stand on those after this one.</source>
             <translation type="unfinished">Les signatures valent pour les {pages} pages : les notes sont sur celles qui suivent.</translation>
+        </message>
+        <message>
+            <source>≈ the best is within the error of measurement of the mark.</source>
+            <translation type="unfinished">≈ le meilleur est dans l’erreur de mesure du seuil.</translation>
         </message>
         <message>
             <source>★ competent, ▼ relapse.</source>
@@ -19806,8 +19978,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{kept:?gardé : {kept.id}, version {kept.version}|non gardé : --save ou --title}</translation>
         </message>
         <message>
-            <source>{people} of {group} have attempts at {exercise}, version {version}, by {hand} that count: bands need {least} at least</source>
-            <translation type="unfinished">{group} : {people} avec des essais de {exercise}, version {version}, par {hand}, qui comptent ; il en faut {least} au moins pour des bandes</translation>
+            <source>{people} of {group} have attempts at {exercise}, version {version}, by {hand} that count: {least} at least are needed</source>
+            <translation type="unfinished">{group} : {people} avec des essais à {exercise}, version {version}, à {hand}, qui comptent ; il en faut au moins {least}</translation>
         </message>
         <message>
             <source>nothing parts {experienced} from {others} in {exercise}: of no metric that says how the needle went are the others worse; its tolerances stay</source>
@@ -20356,6 +20528,142 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>told apart in {n} attempts</source>
             <translation type="unfinished">distingués en {n} essais</translation>
+        </message>
+        <message>
+            <source>give one way to set the mark: --angoff FILE, --borderline FILE or --experienced GROUP</source>
+            <translation type="unfinished">donnez une manière de fixer le seuil : --angoff FICHIER, --borderline FICHIER ou --experienced GROUPE</translation>
+        </message>
+        <message>
+            <source>{exercise}, version {version}: pass mark {points:.1f} ± {standard_error:.1f} points by {method} ({people:#1 person|# people}{attempts:?, {attempts} attempts|}); it was {before:g}</source>
+            <translation type="unfinished">{exercise}, version {version} : seuil de réussite {points:.1f} ± {standard_error:.1f} points par {method} ({people:#1 personne|# personnes}{attempts:?, {attempts} essais|}) ; auparavant {before:g}</translation>
+        </message>
+        <message>
+            <source>{judges_agreement:?judges agree over the exercises of the sheet: ICC(2,k) {judges_agreement.value:.2f} ({judges_agreement.lower:.2f} … {judges_agreement.upper:.2f})|}</source>
+            <translation type="unfinished">{judges_agreement:?accord des juges sur les exercices de la feuille : ICC(2,k) {judges_agreement.value:.2f} ({judges_agreement.lower:.2f} … {judges_agreement.upper:.2f})|}</translation>
+        </message>
+        <message>
+            <source>{score_error:?a single score is good to ± {score_error:.1f} points (of people who repeated it): a score within that of the mark is told as within the error of measurement|the standard error of a score is not known: 2 people with 2 attempts that count are needed}</source>
+            <translation type="unfinished">{score_error:?un score isolé est juste à ± {score_error:.1f} points (de personnes qui ont répété) : si près du seuil, il est dit dans l’erreur de mesure|l’erreur type d’un score n’est pas connue : il faut 2 personnes avec 2 essais qui comptent}</translation>
+        </message>
+        <message>
+            <source>{people_here:?{people_reach_it} of {people_here} people here reach it now|}</source>
+            <translation type="unfinished">{people_here:?{people_reach_it} personnes sur {people_here} ici l’atteignent maintenant|}</translation>
+        </message>
+        <message>
+            <source>published hands, {hands}: {share:.0%} would pass, were all else perfect</source>
+            <translation type="unfinished">mains publiées, {hands} : {share:.0%} réussiraient, si tout le reste était parfait</translation>
+        </message>
+        <message>
+            <source>{metric} passes to {pass:g}: {words}</source>
+            <translation type="unfinished">{metric} réussit jusqu’à {pass:g} : {words}</translation>
+        </message>
+        <message>
+            <source>{file} has no column {exercise}: give each judge's estimate of it</source>
+            <translation type="unfinished">{file} n’a pas de colonne {exercise} : donnez-en l’estimation de chaque juge</translation>
+        </message>
+        <message>
+            <source>the points do not part the two groups: half of both are on the wrong side of any mark; choose groups that differ more, or another method</source>
+            <translation type="unfinished">les points ne séparent pas les deux groupes : la moitié des deux est du mauvais côté de tout seuil ; choisissez des groupes plus différents, ou une autre méthode</translation>
+        </message>
+        <message>
+            <source>points need the axes student, exercise and occasion, all finite</source>
+            <translation type="unfinished">il faut aux points les axes étudiant, exercice et occasion, tous finis</translation>
+        </message>
+        <message>
+            <source>students with points: {students}; reliability needs 2 students at least: take in more</source>
+            <translation type="unfinished">étudiants avec des points : {students} ; la fiabilité demande au moins 2 étudiants : prenez-en davantage</translation>
+        </message>
+        <message>
+            <source>each student has points once only: reliability needs 2 exercises or 2 attempts at least</source>
+            <translation type="unfinished">chaque étudiant n’a de points qu’une fois : la fiabilité demande au moins 2 exercices ou 2 essais</translation>
+        </message>
+        <message>
+            <source>all {attempts} attempts have the same points: nothing varies; take in more students, or harder exercises</source>
+            <translation type="unfinished">les {attempts} essais ont tous les mêmes points : rien ne varie ; prenez plus d’étudiants ou des exercices plus difficiles</translation>
+        </message>
+        <message>
+            <source>all {students} students have the same mean points: nothing tells them apart; take in more students, or a harder exercise</source>
+            <translation type="unfinished">les {students} étudiants ont tous la même moyenne : rien ne les distingue ; prenez plus d’étudiants ou un exercice plus difficile</translation>
+        </message>
+        <message>
+            <source>{columns} column of points: agreement needs 2 exercises or 2 attempts at least</source>
+            <translation type="unfinished">colonnes de points : {columns} ; un accord demande au moins 2 exercices ou 2 essais</translation>
+        </message>
+        <message>
+            <source>the points in row {row}, column {column} are missing: leave that row or that column out, or complete it</source>
+            <translation type="unfinished">les points de la ligne {row}, colonne {column} manquent : supprimez cette ligne ou cette colonne, ou complétez-la</translation>
+        </message>
+        <message>
+            <source>students with 2 attempts or more: {students}; the standard error of a score needs 2 such students at least: let them repeat the exercise</source>
+            <translation type="unfinished">étudiants avec 2 essais ou plus : {students} ; l’erreur type d’un score en demande au moins 2 : faites répéter l’exercice</translation>
+        </message>
+        <message>
+            <source>the points repeat exactly and leave nothing to chance, with cells missing: take in more attempts, or a set in which every student has every exercise</source>
+            <translation type="unfinished">les points se répètent exactement et ne laissent rien au hasard, et des cellules manquent : prenez plus d’essais, ou un ensemble où chaque étudiant a chaque exercice</translation>
+        </message>
+        <message>
+            <source>too many cells are missing: these {attempts} attempts do not tell {effect} from {other}; take in students who have the same exercises, twice at least</source>
+            <translation type="unfinished">trop de cellules manquent : ces {attempts} essais ne distinguent pas {effect} de {other} ; prenez des étudiants qui ont les mêmes exercices, deux fois au moins</translation>
+        </message>
+        <message>
+            <source>{judges} judges: a mark by Angoff needs {least} at least; ask more</source>
+            <translation type="unfinished">juges : {judges} ; un seuil selon Angoff en demande au moins {least} : interrogez-en davantage</translation>
+        </message>
+        <message>
+            <source>{attempts} rated attempts: borderline regression needs {least} at least; rate more</source>
+            <translation type="unfinished">essais notés : {attempts} ; la régression « borderline » en demande au moins {least} : notez-en davantage</translation>
+        </message>
+        <message>
+            <source>all ratings are {rating:g}: ratings without spread have no line; rate attempts of other quality as well</source>
+            <translation type="unfinished">toutes les notes sont {rating:g} : sans dispersion il n’y a pas de droite ; notez aussi des essais d’une autre qualité</translation>
+        </message>
+        <message>
+            <source>ratings go from {least:g} to {most:g}, and borderline is {borderline:g}: rate attempts on both sides of it, or give the rating that means borderline by --at</source>
+            <translation type="unfinished">les notes vont de {least:g} à {most:g}, et le cas limite est {borderline:g} : notez des essais des deux côtés, ou donnez par --at la note du cas limite</translation>
+        </message>
+        <message>
+            <source>points do not rise with the ratings ({slope:.1f} points a step): the ratings say something else than the score; see whether the scale runs the right way</source>
+            <translation type="unfinished">les points ne montent pas avec les notes ({slope:.1f} points par degré) : les notes disent autre chose que le score ; vérifiez le sens de l’échelle</translation>
+        </message>
+        <message>
+            <source>the line gives {mark:.0f} points at {borderline:g}, beyond 0 to 100: rate more attempts near borderline</source>
+            <translation type="unfinished">la droite donne {mark:.0f} points à {borderline:g}, hors de 0 à 100 : notez plus d’essais proches du cas limite</translation>
+        </message>
+        <message>
+            <source>{name!r} is a scripted skill: scripts, not people, and scripts set no mark; name a group of people, or judges</source>
+            <translation type="unfinished">{name!r} est une habileté scriptée : des scripts, pas des personnes, et les scripts ne fixent aucun seuil ; nommez un groupe de personnes, ou des juges</translation>
+        </message>
+        <message>
+            <source>{name!r} is no attempt here: `acus session list` has the ids</source>
+            <translation type="unfinished">{name!r} n’est pas un essai ici : `acus session list` donne les identifiants</translation>
+        </message>
+        <message>
+            <source>{name!r} was done by a script: scripts, not people, and scripts set no mark; delete the row</source>
+            <translation type="unfinished">{name!r} vient d’un script : des scripts, pas des personnes, et les scripts ne fixent aucun seuil ; supprimez la ligne</translation>
+        </message>
+        <message>
+            <source>{name!r} is of {other}, version {other_version}, not of {exercise}, version {version}: delete the row</source>
+            <translation type="unfinished">{name!r} est de {other}, version {other_version}, pas de {exercise}, version {version} : supprimez la ligne</translation>
+        </message>
+        <message>
+            <source>{name!r} does not count (void, no score, a drill, or not this station's): delete the row</source>
+            <translation type="unfinished">{name!r} ne compte pas (nul, sans score, un exercice partiel, ou pas de ce poste) : supprimez la ligne</translation>
+        </message>
+        <message>
+            <source>{attempts} attempts were left out: scripts, not people</source>
+            <translation type="unfinished">essais laissés de côté : {attempts} ; des scripts, pas des personnes</translation>
+        </message>
+        <message>
+            <source>one exercise only: how students would do at others is not known; have them do a second one</source>
+            <translation type="unfinished">un seul exercice : on ne sait pas ce que les étudiants feraient à d’autres ; faites-en faire un second</translation>
+        </message>
+        <message>
+            <source>one attempt each: how far a second one would differ is not known; have some students repeat an exercise</source>
+            <translation type="unfinished">un seul essai chacun : on ne sait pas de combien un second différerait ; faites répéter un exercice par quelques étudiants</translation>
+        </message>
+        <message>
+            <source>{student} has no attempt at {exercise} that counts, and {cells} such cells are empty in all: agreement and discrimination are of the {complete} students who have every exercise</source>
+            <translation type="unfinished">{student} n’a aucun essai à {exercise} qui compte, et {cells} cellules de ce genre sont vides en tout : accord et discrimination sont ceux des {complete} étudiants qui ont chaque exercice</translation>
         </message>
     </context>
 </TS>

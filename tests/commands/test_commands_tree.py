@@ -21,16 +21,16 @@ NEEDS_MORE = {
     "calibrate export", "calibrate import", "calibrate mono", "calibrate redo", "calibrate reject",
     "calibrate show", "calibrate stereo", "calibrate undo", "calibrate use", "calibrate views",
     "calibrate world", "ct digest", "ct import", "ct list", "ct path", "ct point",
-    "device calibrate", "device show", "exercise bands", "exercise pack", "exercise trial",
-    "exercise unpack",
+    "device calibrate", "device show", "exercise bands", "exercise mark", "exercise pack",
+    "exercise trial", "exercise unpack",
     "device test", "pacs echo", "pacs find", "pacs get", "pacs move",
     "pen calibrate", "registration check", "session compare", "session replay", "session show",
     "session verify", "structures distance", "structures export", "structures list",
     "transform export", "transform show", "urdf import", "camera test", "library remove",
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
-    "results export", "results xapi", "session delete", "session restore", "store gather",
-    "store restore", "store revoke", "store sync",
+    "results export", "results reliability", "results xapi", "session delete",
+    "session restore", "store gather", "store restore", "store revoke", "store sync",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 

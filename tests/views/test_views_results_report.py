@@ -2,6 +2,7 @@
 
 import datetime
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -225,3 +226,16 @@ def test_a_group_without_attempts_has_a_report_too(drawn):
     assert pages_of(group_report(results_of(0, 0, 0), {}, facts())) == 1
     empty = results_of(1, 2, 0)
     assert pages_of(student_report(empty, empty.board.students[0], {}, NOW)) == 1
+
+
+def test_a_best_near_the_mark_is_marked_in_a_report_and_the_sign_is_explained(drawn):
+    results, place = results_of(2, 1, 3), ("p-1", "exercise-0")
+    explained = "≈ the best is within the error of measurement of the mark."
+    group_report(results, {}, facts())
+    assert explained not in [words for page in drawn() for words in page]
+    near = replace(results.board.cells[place], near_mark=True)
+    board = replace(results.board, cells={**results.board.cells, place: near})
+    group_report(replace(results, board=board), {}, facts())
+    texts = [words for page in drawn() for words in page]
+    assert explained in texts
+    assert texts.count("≈") == 1

@@ -17,6 +17,7 @@ from app.exercises.drill import DrillKind, DrillPart
 from app.planning.judged import JudgedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.pass_mark import SetMark
 from app.scoring.result import judge
 from app.scoring.risks import RiskMark
 from app.scoring.rows import Row, ScoreRules
@@ -105,6 +106,19 @@ def test_passed_not_passed_void_and_unscored_are_told_apart_in_words():
     assert "99" in verdicts[1][2]
     assert "aborted" in verdicts[2][2]
     assert len({v[0] for v in verdicts}) == 4
+
+
+@pytest.mark.parametrize(("above", "word"), [(-2.0, "✔ Passed"), (2.0, "✖ Not passed")])
+def test_a_score_within_the_error_of_the_mark_says_so_on_either_side(above, word):
+    points = round(score().total + above, 1)
+    set_by = {"method": "angoff", "points": points, "standard_error": 1.0, "people": 5}
+    for error, near in ((4.0, True), (1.0, False), (None, False)):
+        mark = SetMark.model_validate(set_by | {"score_error": error})
+        rules = score().rules.model_copy(update={"pass_mark": points, "mark": mark})
+        said = verdict(review(score=score().recomputed(rules=rules)))
+        assert said[1] == word
+        assert ("Within the error of measurement of the mark" in said[2]) is near
+        assert report_bytes(review(score=score().recomputed(rules=rules)))
 
 
 def test_a_void_attempt_is_not_judged_and_what_can_be_done_is_said(page):

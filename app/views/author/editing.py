@@ -145,6 +145,8 @@ class ExerciseEditor(QObject):
         document = deepcopy(self.document)
         for where, value in values.items():
             _set(document, where, value)
+        if ("rules", "pass_mark") in values:
+            document["rules"].pop("mark", None)  # nobody but who types it has set this one
         if self.saved is None and ("title",) in values:
             document["id"] = free_id(str(document.get("title", "")), self._taken)
         if document == self.document:

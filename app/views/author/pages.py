@@ -1049,7 +1049,7 @@ class SkillsPlot(QWidget):
         self._passed: dict[str, float] = {}
         self._pass_mark = 60.0
         self.setFixedHeight(theme.px(140))
-        self.setAccessibleName(tr("What scripted skills would score"))
+        self.setAccessibleName(tr("What scripted skills would score (scripts, not people)"))
 
     def show_scores(self, rows: Sequence[Mapping[str, Any]], pass_mark: float) -> None:
         """Draw rows of `acus exercise trial --json`; none where nothing is known."""
@@ -1138,7 +1138,9 @@ class ScorePage(Form):
             self.bands,
             self._show,
         )
-        self.rows.addWidget(PlainLabel(tr("What scripted skills would score")))
+        self.rows.addWidget(
+            PlainLabel(tr("What scripted skills would score (scripts, not people)"))
+        )
         self.skills = SkillsPlot(self)
         self.rows.addWidget(self.skills)
         self.tried = label("", "dim")

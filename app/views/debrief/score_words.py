@@ -445,7 +445,8 @@ def verdict(review: Review) -> tuple[str, str, str]:
         why = _ended(begun(score.void_reason))
         return theme.WARNING, tr("▲ Void"), f"{why} {remedy(score, review.conditions)}"
     if score.passed:
-        return theme.GOOD, tr("✔ Passed") if review.drill is None else tr("✔ Reached"), ""
+        word = tr("✔ Passed") if review.drill is None else tr("✔ Reached")
+        return theme.GOOD, word, near_mark_words(score)
     failures = listing(metric_title(row) for row in score.failures)
     if score.hard_fails:
         reason = begun(joined("; ", score.hard_fails))
@@ -453,8 +454,23 @@ def verdict(review: Review) -> tuple[str, str, str]:
         reason = tr("Required and not met: {names}", names=failures)
     else:
         reason = tr("{mark:g} points are needed", mark=score.rules.pass_mark)
+        if near := near_mark_words(score):
+            reason = f"{_ended(reason)} {near}"
     word = tr("✖ Not passed") if review.drill is None else tr("✖ Not reached yet")
     return theme.BAD, word, reason
+
+
+def near_mark_words(score: Score) -> str:
+    """Say that a total lies within the error of measurement of the mark; empty if it does not."""
+    mark = score.rules.mark
+    if not score.is_near_mark or mark is None or mark.score_error is None:
+        return ""
+    return tr(
+        "Within the error of measurement of the mark ({mark:g} ± {error:.1f} points): another "
+        "attempt may fall on its other side.",
+        mark=score.rules.pass_mark,
+        error=mark.score_error,
+    )
 
 
 def remedy(score: Score, conditions: Conditions | None = None) -> str:

@@ -307,6 +307,8 @@ def _mark(sheet: ReportPages, left: float, cell: BoardCell, mark: float | None) 
         sheet.text(left + 2.0, "✔", 7.0, colour)
     taken = sheet.advance(words, 8.0, bold=cell.passed)
     sheet.text(left + _RIGHT - taken, words, 8.0, colour, bold=cell.passed)
+    if cell.near_mark:
+        sheet.text(left + 9.5, "≈", 5.6, DIM)
     sheet.text(left + _RIGHT + 2.0, f"({cell.attempts})", 5.6, DIM)
 
 
@@ -351,9 +353,13 @@ def _notes(sheet: ReportPages, results: Results, rule: GradeRule) -> None:
         pages=sheet.pages or 1,
     )
     chance = translated(chance_words(results.board, rule))
+    cells = results.board.cells.values()
+    near = tr("≈ the best is within the error of measurement of the mark.")
+    near = near if any(cell.near_mark for cell in cells) else ""
     stars = tr("★ competent, ▼ relapse.")
     competent = f"{stars} {competence_rule(results.board)}" if results.board.items else ""
-    for words in filter(None, (how, competent, pages, chance[:1].upper() + chance[1:])):
+    chance = chance[:1].upper() + chance[1:]
+    for words in filter(None, (how, near, competent, pages, chance)):
         sheet.paragraph(words if words.endswith(".") else f"{words}.", 8.0, DIM)
 
 

@@ -71,6 +71,7 @@ _LEVEL: Final = 0.5
 def cell_words(cell: BoardCell) -> str:
     """Say how a student stands: best, last, trend, time since."""
     void = tr(" · {n} void", n=len(cell.void)) if cell.void else ""
+    near = tr(" · near the mark") if cell.near_mark else ""
     if not cell.attempts or cell.best is None or cell.last is None or cell.since is None:
         return "–" if not cell.others else tr("– ({n} not counted)", n=cell.others) + void
     arrow = ""
@@ -84,7 +85,7 @@ def cell_words(cell: BoardCell) -> str:
         last=cell.last,
         arrow=arrow,
         since=since_words(cell.since),
-        void=void,
+        void=near + void,
     )
 
 
@@ -101,6 +102,8 @@ def since_words(since: datetime.timedelta) -> str:
 def cell_details(cell: BoardCell) -> str:
     """Say the rest of a cell: how many count, the trend, what does not count and why."""
     lines = [tr_n("{n} attempt counts", "{n} attempts count", cell.attempts)]
+    if cell.near_mark:
+        lines.append(tr("The best is within the error of measurement of the mark."))
     if cell.trend is not None:
         lines.append(tr("trend {trend:+.1f} points a time", trend=cell.trend))
     lines += [tr("{n} not counted: {why}", n=n, why=why) for why, n in cell.why]

@@ -1,0 +1,221 @@
+"""`acus results reliability`: how far the scores of a course can be relied on."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from app.commands import completion
+from app.commands.answer import Answer
+from app.commands.doors import instructor
+from app.commands.reader_language import template
+from app.commands.shown import Each, Shown
+
+if TYPE_CHECKING:
+    from app.session.board import ProgressBoard
+    from app.session.index import Indexed
+    from app.session.people import People
+    from app.session.reliability import CourseReliability
+
+SOURCES = {
+    "student": template("student"),
+    "exercise": template("exercise"),
+    "occasion": template("attempt"),
+    "student:exercise": template("student x exercise"),
+    "student:occasion": template("student x attempt"),
+    "exercise:occasion": template("exercise x attempt"),
+    "residual": template("what is left"),
+}
+"""Names of the variance components, for people."""
+
+
+def reliability(
+    course: Annotated[
+        str,
+        typer.Option(
+            "--course",
+            help="Its id; without one every exercise that was attempted.",
+            autocompletion=completion.courses,
+        ),
+    ] = "",
+    group: Annotated[str, typer.Option("--group", help="Only students of this group.")] = "",
+    last: Annotated[
+        int, typer.Option("--last", min=1, help="So many newest attempts of each.")
+    ] = 5,
+    folder: Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")] = None,
+) -> Answer:
+    """Show how far scores can be relied on (instructor).
+
+    Variance by source, G and Phi with how many attempts reach 0.8, agreement, and of each exercise
+    difficulty, discrimination and the standard error of a score.
+    """
+    from app.session.reliability import course_reliability
+
+    instructor()
+    board, _, _ = board_at(course, group, folder)
+    result = course_reliability(board, last)
+    return Answer(_facts(result, course, last), shown=_shown(result))
+
+
+def board_at(
+    course: str, group: str, folder: Path | None
+) -> tuple["ProgressBoard", list["Indexed"], "People"]:
+    """Return board, attempts and people, as the instructor sees them."""
+    from app.commands.calibrate_parts import with_progress
+    from app.session.board import board_of
+    from app.session.course import find_course
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    people, chosen = People(), find_course(course) if course else None
+    place = records_folder(folder)
+    found, attempts = with_progress(
+        lambda progress: board_of(place, people, chosen, group, progress=progress)
+    )
+    return found, attempts, people
+
+
+def _facts(result: "CourseReliability", course: str, last: int) -> dict[str, Any]:
+    from app.session.reliability import agreement_document
+
+    return {
+        "course": course,
+        "students": result.students,
+        "attempts": result.attempts,
+        "last": last,
+        "variance": _variance(result),
+        "decision": _decision(result),
+        "complete": result.complete,
+        "agreement": [agreement_document(one) for one in result.agreement],
+        "exercises": [one.document() for one in result.exercises],
+        "notes": list(result.notes),
+    }
+
+
+def _variance(result: "CourseReliability") -> dict[str, Any] | None:
+    components = result.components
+    if components is None:
+        return None
+    total = components.total
+    return {
+        "estimator": components.estimator.value,
+        "exercises": components.exercises,
+        "occasions": components.occasions,
+        "below_zero": list(components.below_zero),
+        "components": [
+            {
+                "source": name,
+                "title": SOURCES[name],
+                "variance": variance,
+                "share": variance / total if total else 0.0,
+            }
+            for name, variance in components.variances.items()
+        ],
+    }
+
+
+def _decision(result: "CourseReliability") -> dict[str, Any] | None:
+    """Return G and Phi as it was, and with other numbers of attempts."""
+    study, components = result.study, result.components
+    if study is None or components is None:
+        return None
+    exercises, occasions = components.exercises, components.occasions
+    counts = sorted({1, 2, 3, 5, 8, 12, occasions}) if study.sees_attempts else [1]
+    return {
+        "exercises": exercises,
+        "attempts": occasions,
+        "rows": [
+            {
+                "attempts": count,
+                "g": study.coefficient(exercises, count),
+                "phi": study.coefficient(exercises, count, absolute=True),
+                "relative_error": study.standard_error(exercises, count, absolute=False),
+                "absolute_error": study.standard_error(exercises, count),
+            }
+            for count in counts
+        ],
+        "attempts_for_g": study.attempts_for(exercises),
+        "attempts_for_phi": study.attempts_for(exercises, absolute=True),
+        "exercises_for_g": study.exercises_for(occasions),
+        "exercises_for_phi": study.exercises_for(occasions, absolute=True),
+        "score_error": {
+            "relative": study.standard_error(absolute=False),
+            "absolute": study.standard_error(),
+        },
+    }
+
+
+def _shown(result: "CourseReliability") -> Shown:
+    parts: list[str | Each] = [
+        template(
+            "{students} students, {attempts} attempts that count (the newest {last} of each at "
+            "most)"
+        )
+    ]
+    if result.components is not None:
+        parts += [
+            template("\nwhere the variance of a score comes from ({variance.estimator}, points²)"),
+            Each("variance.components", "{variance:9.1f}  {share:>5.0%}  {title:~}"),
+            *([BELOW] if result.components.below_zero else []),
+            *_decision_lines(result),
+        ]
+    if result.agreement:
+        parts += [
+            template("\nagreement of the exercises, {complete} students who have them all"),
+            Each("agreement", "  ICC({form})  {value:5.2f}  ({lower:.2f} … {upper:.2f})"),
+        ]
+    parts += [
+        template(
+            "\nexercise                  points   discr.   score ±   ICC(2,1)   for 0.8   near mark"
+        ),
+        Each(
+            "exercises",
+            "{exercise:24} {difficulty:8.0%}  {discrimination:?{discrimination:7.2f}|      –}"
+            "  {score_error:?{score_error:8.1f}|       –}"
+            "  {agreement:?{agreement.value:9.2f}|        –}"
+            "  {attempts_wanted:?{attempts_wanted:8}|       –}   {near_mark:#}",
+        ),
+        Each("exercises", NEAR),
+        Each("notes", template("note: {}")),
+    ]
+    return parts
+
+
+NEAR = template(
+    "{near_mark:?{exercise}: within the error of measurement of the mark ({pass_mark:g}) are "
+    "{near_mark}|}"
+)
+BELOW = template("  below 0 by the closed form, taken as 0: {variance.below_zero}")
+
+
+def _decision_lines(result: "CourseReliability") -> list[str | Each]:
+    study = result.study
+    lines: list[str | Each] = [
+        template(
+            "\na single score is good to ± {decision.score_error.absolute:.1f} points "
+            "(± {decision.score_error.relative:.1f} between students)"
+        ),
+        template("mean of {decision.exercises} exercises:  attempts     G    Phi   score ±"),
+        Each(
+            "decision.rows",
+            "                      {attempts:9}  {g:4.2f}   {phi:4.2f}  {absolute_error:8.1f}",
+        ),
+    ]
+    if study is not None and study.sees_attempts:
+        lines += [
+            template(
+                "G 0.8 {decision.attempts_for_g:?by {decision.attempts_for_g:#1 attempt|# attempts}"
+                "|by no number of attempts} at each of these exercises, Phi 0.8 "
+                "{decision.attempts_for_phi:?by {decision.attempts_for_phi}|by none}"
+            )
+        ]
+    if study is not None and study.sees_exercises:
+        lines += [
+            template(
+                "with {decision.attempts:#1 attempt|# attempts} each, G 0.8 "
+                "{decision.exercises_for_g:?by {decision.exercises_for_g} such exercises"
+                "|by no number of exercises}, Phi 0.8 "
+                "{decision.exercises_for_phi:?by {decision.exercises_for_phi}|by none}"
+            )
+        ]
+    return lines

@@ -1,0 +1,118 @@
+"""G and D study: how far a mean of several exercises and attempts can be relied on.
+
+Brennan (2001), sections 1.1 and 4.1. Of a mean over n exercises with m attempts each, all drawn
+from many, the error variances are
+
+    relative  v(se)/n + v(so)/m + v(seo)/(nm)                 for ranking students
+    absolute  relative + v(e)/n + v(o)/m + v(eo)/(nm)         for a pass mark
+
+and G = v(s) / (v(s) + relative), Phi = v(s) / (v(s) + absolute). The standard error of a score is
+the root of the absolute error variance. With one exercise, or one attempt at each, the components
+that cannot be seen are in the residual, and nothing is said of more exercises, or attempts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from app.scoring.reliability.components import (
+    EXERCISE,
+    OCCASION,
+    RESIDUAL,
+    STUDENT,
+    VarianceComponents,
+)
+
+WANTED: Final = 0.8
+"""G or Phi that an assessment with consequences should have (Brennan 2001; Downing 2004)."""
+
+_MOST: Final = 10_000
+"""More attempts or exercises than that are as good as never."""
+
+
+@dataclass(frozen=True, slots=True)
+class DecisionStudy:
+    """What a mean of so many exercises and attempts would be worth.
+
+    Attributes:
+        components: as estimated.
+    """
+
+    components: VarianceComponents
+
+    @property
+    def sees_exercises(self) -> bool:
+        """Return whether there were several exercises."""
+        return self.components.exercises > 1
+
+    @property
+    def sees_attempts(self) -> bool:
+        """Return whether there were several attempts at an exercise."""
+        return self.components.occasions > 1
+
+    def error(self, exercises: int, attempts: int, absolute: bool = True) -> float:
+        """Return the error variance of a mean [points²].
+
+        Args:
+            exercises: how many, 1 or more.
+            attempts: at each of them, 1 or more.
+            absolute: against a pass mark; else against other students.
+        """
+        v, both = self.components.variance, exercises * attempts
+        error = (
+            v(STUDENT, EXERCISE) / exercises + v(STUDENT, OCCASION) / attempts + v(RESIDUAL) / both
+        )
+        if absolute:
+            error += v(EXERCISE) / exercises + v(OCCASION) / attempts + v(EXERCISE, OCCASION) / both
+        return error
+
+    def coefficient(self, exercises: int, attempts: int, absolute: bool = False) -> float:
+        """Return G, or Phi where `absolute`: 0 ... 1, and 0 where students do not differ."""
+        own = self.components.variance(STUDENT)
+        return own / (own + self.error(exercises, attempts, absolute)) if own > 0.0 else 0.0
+
+    def standard_error(self, exercises: int = 1, attempts: int = 1, absolute: bool = True) -> float:
+        """Return the standard error of a score [points]."""
+        return math.sqrt(self.error(exercises, attempts, absolute))
+
+    def attempts_for(
+        self, exercises: int, absolute: bool = False, wanted: float = WANTED
+    ) -> int | None:
+        """Return how many attempts at each exercise are enough; None where no number is.
+
+        Args:
+            exercises: how many there are.
+            absolute: for Phi, else for G.
+            wanted: coefficient, between 0 and 1.
+        """
+        if not self.sees_attempts:
+            return None
+        return self._enough(lambda count: self.coefficient(exercises, count, absolute), wanted)
+
+    def exercises_for(
+        self, attempts: int, absolute: bool = False, wanted: float = WANTED
+    ) -> int | None:
+        """Return how many exercises are enough with so many attempts each; None where no number is.
+
+        Args:
+            attempts: at each exercise.
+            absolute: for Phi, else for G.
+            wanted: coefficient, between 0 and 1.
+        """
+        if not self.sees_exercises:
+            return None
+        return self._enough(lambda count: self.coefficient(count, attempts, absolute), wanted)
+
+    @staticmethod
+    def _enough(of: Callable[[int], float], wanted: float) -> int | None:
+        """Return the least count for which a coefficient, which rises, is as wanted."""
+        if of(_MOST) < wanted:
+            return None
+        low, high = 0, _MOST
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if of(middle) >= wanted else (middle, high)
+        return high
