@@ -23,6 +23,7 @@ def register(app: typer.Typer) -> None:
     store = Commands(help="The folder of records: index, backup, trash, other stations.")
     store.command("status")(status)
     store.command("rebuild")(rebuild)
+    store.command("check")(check)
     store.command("backup")(backup)
     store.command("restore")(restore)
     store.command("empty-trash")(empty)
@@ -84,6 +85,44 @@ def rebuild(folder: FolderOption = None) -> Answer:
     return Answer(
         facts, shown=template("{attempts} attempts indexed, {gone} of the old index are gone")
     )
+
+
+def check(
+    backup: Annotated[
+        Path | None, typer.Argument(metavar="[BACKUP]", help="A backup; else what is here.")
+    ] = None,
+    folder: FolderOption = None,
+) -> Answer:
+    """Read everything here, or a backup, and say what is not as it was written (instructor).
+
+    Every record is read whole and held against its signature, the list of people and the audit
+    trail are looked through, every file of a backup is held against its list. Nothing is changed.
+    Ends with code 3 if something is wrong.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.commands.doors import instructor
+    from app.session.checking import check_backup, check_store
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    people = People()
+    instructor(people)
+    if backup is not None:
+        source = backup
+        done = with_progress(lambda progress: check_backup(source, progress))
+    else:
+        place = records_folder(folder)
+        done = with_progress(lambda progress: check_store(place, people, progress))
+    facts = {
+        "records": done.files,
+        "signatures": done.signatures,
+        "wrong": list(done.wrong),
+    }
+    shown = (
+        template("{records:#1 record|# records} read"),
+        Each("wrong", template("✖ {}"), template("✔ everything is as it was written")),
+    )
+    return Answer(facts, yes=not done.wrong, shown=shown)
 
 
 def backup(

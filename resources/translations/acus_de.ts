@@ -6456,8 +6456,32 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">ab Takt {first} fehlen Takte: {count}</translation>
         </message>
         <message>
+            <source>{file} cannot be read: {reason}</source>
+            <translation type="unfinished">{file} ist nicht zu lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>{file} was altered after it was signed</source>
+            <translation type="unfinished">{file} wurde verändert, nachdem es unterschrieben war</translation>
+        </message>
+        <message>
+            <source>line {number} of the audit trail is not as it was written</source>
+            <translation type="unfinished">Zeile {number} des Protokolls ist nicht, wie sie geschrieben wurde</translation>
+        </message>
+        <message>
+            <source>{name} is not what was packed</source>
+            <translation type="unfinished">{name} ist nicht, was eingepackt wurde</translation>
+        </message>
+        <message>
             <source>{source} is no backup of Acus, or damaged: {error}</source>
             <translation type="unfinished">{source} ist keine Sicherung von Acus oder ist beschädigt: {error}</translation>
+        </message>
+        <message>
+            <source>cannot read {source}: {reason}</source>
+            <translation type="unfinished">{source} ist nicht zu lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>the list of people {file} is damaged ({reason}): bring it back with `acus store restore`</source>
+            <translation type="unfinished">die Personenliste {file} ist beschädigt ({reason}): mit `acus store restore` zurückholen</translation>
         </message>
         <message>
             <source>cannot restore {source}: {reason} ({error_filename})</source>
@@ -19572,6 +19596,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{attempts} attempts indexed, {gone} of the old index are gone</source>
             <translation type="unfinished">{attempts} Versuche verzeichnet, {gone} des alten Verzeichnisses sind weg</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} read</source>
+            <translation type="unfinished">{records:#1 Aufzeichnung|# Aufzeichnungen} gelesen</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✔ everything is as it was written</source>
+            <translation type="unfinished">✔ alles ist, wie es geschrieben wurde</translation>
         </message>
         <message>
             <source>the station's key in it was sealed by an earlier build, and nothing opens it any more: change the password (`acus people instructor`), which prints a new recovery key, and make the backup again</source>

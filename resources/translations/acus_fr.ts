@@ -6456,8 +6456,32 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">cycles manquants à partir du cycle {first} : {count}</translation>
         </message>
         <message>
+            <source>{file} cannot be read: {reason}</source>
+            <translation type="unfinished">{file} ne peut être lu : {reason}</translation>
+        </message>
+        <message>
+            <source>{file} was altered after it was signed</source>
+            <translation type="unfinished">{file} a été modifié après sa signature</translation>
+        </message>
+        <message>
+            <source>line {number} of the audit trail is not as it was written</source>
+            <translation type="unfinished">la ligne {number} du journal n’est pas telle qu’elle fut écrite</translation>
+        </message>
+        <message>
+            <source>{name} is not what was packed</source>
+            <translation type="unfinished">{name} n’est pas ce qui fut emballé</translation>
+        </message>
+        <message>
             <source>{source} is no backup of Acus, or damaged: {error}</source>
             <translation type="unfinished">{source} n’est pas une sauvegarde d’Acus, ou est endommagé : {error}</translation>
+        </message>
+        <message>
+            <source>cannot read {source}: {reason}</source>
+            <translation type="unfinished">impossible de lire {source} : {reason}</translation>
+        </message>
+        <message>
+            <source>the list of people {file} is damaged ({reason}): bring it back with `acus store restore`</source>
+            <translation type="unfinished">la liste des personnes {file} est endommagée ({reason}) : rétablissez-la avec `acus store restore`</translation>
         </message>
         <message>
             <source>cannot restore {source}: {reason} ({error_filename})</source>
@@ -19572,6 +19596,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{attempts} attempts indexed, {gone} of the old index are gone</source>
             <translation type="unfinished">{attempts} essais indexés, {gone} de l’ancien index ont disparu</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} read</source>
+            <translation type="unfinished">{records:#1 enregistrement lu|# enregistrements lus}</translation>
+        </message>
+        <message>
+            <source>✖ {}</source>
+            <translation type="unfinished">✖ {}</translation>
+        </message>
+        <message>
+            <source>✔ everything is as it was written</source>
+            <translation type="unfinished">✔ tout est tel qu’il fut écrit</translation>
         </message>
         <message>
             <source>the station's key in it was sealed by an earlier build, and nothing opens it any more: change the password (`acus people instructor`), which prints a new recovery key, and make the backup again</source>

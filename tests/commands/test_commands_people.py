@@ -293,6 +293,7 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("store", "connect", "sqlite:///out.sqlite"),
         ("store", "sync"),
         ("store", "audit"),
+        ("store", "check"),
     ]
     for words in doors:
         assert "a question was not answered" in acus(*words, code=2), words

@@ -122,6 +122,7 @@ EXAMPLES = {
     "session export": ("--out", "all.csv"),
     "session list": (),
     "store audit": (),
+    "store check": (),
     "store backup": ("--out", "all.acusbackup"),
     "store connect": ("sqlite:///school.sqlite",),
     "store empty-trash": (),

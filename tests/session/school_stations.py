@@ -98,7 +98,8 @@ def fresh_of(path: Path):
 def headed(root: Path, patch: pytest.MonkeyPatch) -> SchoolStation:
     """Return a station with the people and the course of the pool, and no attempts."""
     shutil.copytree(pool()[0] / "data", root / "data")
-    (root / "data" / "people" / "station.key").unlink()
+    for name in ("station.key", "audit.jsonl"):  # those of another station
+        (root / "data" / "people" / name).unlink()
     return SchoolStation(root, "head", patch)
 
 
