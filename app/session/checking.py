@@ -76,7 +76,7 @@ def check_store(
     if (people.folder / PEOPLE).exists():
         wrong += _people_trouble(people.folder / PEOPLE)
     wrong += [
-        sentence("line {number} of the audit trail is not as it was written", number=one.number)
+        sentence("line {place} of the audit trail is not as it was written", place=one.number)
         for one in entries(people.folder)
         if not one.right
     ]

@@ -6464,8 +6464,8 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">{file} wurde verändert, nachdem es unterschrieben war</translation>
         </message>
         <message>
-            <source>line {number} of the audit trail is not as it was written</source>
-            <translation type="unfinished">Zeile {number} des Protokolls ist nicht, wie sie geschrieben wurde</translation>
+            <source>line {place} of the audit trail is not as it was written</source>
+            <translation type="unfinished">Zeile {place} des Protokolls ist nicht, wie sie geschrieben wurde</translation>
         </message>
         <message>
             <source>{name} is not what was packed</source>

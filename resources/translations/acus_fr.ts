@@ -6464,8 +6464,8 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">{file} a été modifié après sa signature</translation>
         </message>
         <message>
-            <source>line {number} of the audit trail is not as it was written</source>
-            <translation type="unfinished">la ligne {number} du journal n’est pas telle qu’elle fut écrite</translation>
+            <source>line {place} of the audit trail is not as it was written</source>
+            <translation type="unfinished">la ligne {place} du journal n’est pas telle qu’elle fut écrite</translation>
         </message>
         <message>
             <source>{name} is not what was packed</source>
