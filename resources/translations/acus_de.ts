@@ -14881,6 +14881,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alles sichern…</translation>
         </message>
         <message>
+            <source>Restore a backup…</source>
+            <translation type="unfinished">Sicherung zurückholen…</translation>
+        </message>
+        <message>
             <source>Pseudonym</source>
             <translation type="unfinished">Pseudonym</translation>
         </message>
@@ -19017,6 +19021,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts brought back</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch zurückgeholt</numerusform>
+                <numerusform>{n} Versuche zurückgeholt</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts left out: their students were erased.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch ausgelassen: sein Teilnehmer wurde gelöscht.</numerusform>
+                <numerusform>{n} Versuche ausgelassen: ihre Teilnehmer wurden gelöscht.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch liegt in {folder}, wo frühere Versionen Versuche aufbewahrten: `acus session gather` holt Ihre hierher, `acus session list --folder {folder}` zeigt alle</numerusform>
@@ -19056,6 +19074,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Versuch wartet darauf, gesendet zu werden: `acus store sync`</numerusform>
                 <numerusform>{n} Versuche warten darauf, gesendet zu werden: `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts were here already.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch war schon hier.</numerusform>
+                <numerusform>{n} Versuche waren schon hier.</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20700,6 +20725,58 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{student} has no attempt at {exercise} that counts, and {cells} such cells are empty in all: agreement and discrimination are of the {complete} students who have every exercise</source>
             <translation type="unfinished">{student} hat keinen Versuch an {exercise}, der zählt, und insgesamt sind {cells} solche Zellen leer: Übereinstimmung und Trennschärfe sind die der {complete} Teilnehmer, die jede Übung haben</translation>
+        </message>
+        <message>
+            <source>Restore a backup</source>
+            <translation type="unfinished">Sicherung zurückholen</translation>
+        </message>
+        <message>
+            <source>Attempts that are missing here are brought back from {name}; none that is here is changed, and nobody who was erased comes back. The recovery key brings the station's key back too, for another computer: leave it empty else.</source>
+            <translation type="unfinished">Versuche, die hier fehlen, werden aus {name} zurückgeholt; keiner, der hier ist, wird geändert, und niemand, der gelöscht wurde, kommt zurück. Der Wiederherstellungsschlüssel bringt auch den Schlüssel der Station zurück, für einen anderen Computer: sonst leer lassen.</translation>
+        </message>
+        <message>
+            <source>Students and courses of the backup in place of those here</source>
+            <translation type="unfinished">Teilnehmer und Kurse der Sicherung statt der hiesigen</translation>
+        </message>
+        <message>
+            <source>Restoring a backup</source>
+            <translation type="unfinished">Sicherung wird zurückgeholt</translation>
+        </message>
+        <message>
+            <source>Students and courses are those of the backup.</source>
+            <translation type="unfinished">Teilnehmer und Kurse sind die der Sicherung.</translation>
+        </message>
+        <message>
+            <source>Students and courses here stay as they are.</source>
+            <translation type="unfinished">Teilnehmer und Kurse hier bleiben, wie sie sind.</translation>
+        </message>
+        <message>
+            <source>There are no students in the backup.</source>
+            <translation type="unfinished">In der Sicherung sind keine Teilnehmer.</translation>
+        </message>
+        <message>
+            <source>The station's key is that of the backup.</source>
+            <translation type="unfinished">Der Schlüssel der Station ist der aus der Sicherung.</translation>
+        </message>
+        <message>
+            <source>The station's key was this one already.</source>
+            <translation type="unfinished">Der Schlüssel der Station war schon dieser.</translation>
+        </message>
+        <message>
+            <source>The station's key here stays; the one in the backup was not asked.</source>
+            <translation type="unfinished">Der Schlüssel dieser Station bleibt; nach dem in der Sicherung wurde nicht gefragt.</translation>
+        </message>
+        <message>
+            <source>There is no station's key in the backup.</source>
+            <translation type="unfinished">In der Sicherung ist kein Schlüssel der Station.</translation>
+        </message>
+        <message>
+            <source>Another file here, which stays: {names}</source>
+            <translation type="unfinished">Hier eine andere Datei, die bleibt: {names}</translation>
+        </message>
+        <message>
+            <source>Not taken: {what}</source>
+            <translation type="unfinished">Nicht übernommen: {what}</translation>
         </message>
     </context>
 </TS>

@@ -14881,6 +14881,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tout sauvegarder…</translation>
         </message>
         <message>
+            <source>Restore a backup…</source>
+            <translation type="unfinished">Restaurer une sauvegarde…</translation>
+        </message>
+        <message>
             <source>Pseudonym</source>
             <translation type="unfinished">Pseudonyme</translation>
         </message>
@@ -19017,6 +19021,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts brought back</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative rétablie</numerusform>
+                <numerusform>{n} tentatives rétablies</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts left out: their students were erased.</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative écartée : son étudiant a été effacé.</numerusform>
+                <numerusform>{n} tentatives écartées : leurs étudiants ont été effacés.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts lie in {folder}, where earlier versions kept attempts: `acus session gather` brings yours here, `acus session list --folder {folder}` lists all</source>
             <translation type="unfinished">
                 <numerusform>{n} essai se trouve dans {folder}, où d’anciennes versions conservaient les essais : `acus session gather` apporte les vôtres ici, `acus session list --folder {folder}` les liste tous</numerusform>
@@ -19056,6 +19074,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} tentative attend d’être envoyée : `acus store sync`</numerusform>
                 <numerusform>{n} tentatives attendent d’être envoyées : `acus store sync`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} attempts were here already.</source>
+            <translation type="unfinished">
+                <numerusform>{n} tentative était déjà ici.</numerusform>
+                <numerusform>{n} tentatives étaient déjà ici.</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20700,6 +20725,58 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{student} has no attempt at {exercise} that counts, and {cells} such cells are empty in all: agreement and discrimination are of the {complete} students who have every exercise</source>
             <translation type="unfinished">{student} n’a aucun essai à {exercise} qui compte, et {cells} cellules de ce genre sont vides en tout : accord et discrimination sont ceux des {complete} étudiants qui ont chaque exercice</translation>
+        </message>
+        <message>
+            <source>Restore a backup</source>
+            <translation type="unfinished">Restaurer une sauvegarde</translation>
+        </message>
+        <message>
+            <source>Attempts that are missing here are brought back from {name}; none that is here is changed, and nobody who was erased comes back. The recovery key brings the station's key back too, for another computer: leave it empty else.</source>
+            <translation type="unfinished">Les tentatives qui manquent ici sont rétablies depuis {name} ; aucune de celles qui sont ici n’est modifiée, et personne qui fut effacé ne revient. La clé de récupération ramène aussi la clé du poste, pour un autre ordinateur : sinon laissez-la vide.</translation>
+        </message>
+        <message>
+            <source>Students and courses of the backup in place of those here</source>
+            <translation type="unfinished">Étudiants et cours de la sauvegarde à la place de ceux d’ici</translation>
+        </message>
+        <message>
+            <source>Restoring a backup</source>
+            <translation type="unfinished">Restauration d’une sauvegarde</translation>
+        </message>
+        <message>
+            <source>Students and courses are those of the backup.</source>
+            <translation type="unfinished">Les étudiants et les cours sont ceux de la sauvegarde.</translation>
+        </message>
+        <message>
+            <source>Students and courses here stay as they are.</source>
+            <translation type="unfinished">Les étudiants et les cours d’ici restent tels quels.</translation>
+        </message>
+        <message>
+            <source>There are no students in the backup.</source>
+            <translation type="unfinished">Il n’y a pas d’étudiants dans la sauvegarde.</translation>
+        </message>
+        <message>
+            <source>The station's key is that of the backup.</source>
+            <translation type="unfinished">La clé du poste est celle de la sauvegarde.</translation>
+        </message>
+        <message>
+            <source>The station's key was this one already.</source>
+            <translation type="unfinished">La clé du poste était déjà celle-ci.</translation>
+        </message>
+        <message>
+            <source>The station's key here stays; the one in the backup was not asked.</source>
+            <translation type="unfinished">La clé de ce poste reste ; celle de la sauvegarde n’a pas été demandée.</translation>
+        </message>
+        <message>
+            <source>There is no station's key in the backup.</source>
+            <translation type="unfinished">Il n’y a pas de clé de poste dans la sauvegarde.</translation>
+        </message>
+        <message>
+            <source>Another file here, which stays: {names}</source>
+            <translation type="unfinished">Un autre fichier ici, qui reste : {names}</translation>
+        </message>
+        <message>
+            <source>Not taken: {what}</source>
+            <translation type="unfinished">Non repris : {what}</translation>
         </message>
     </context>
 </TS>

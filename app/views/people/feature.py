@@ -53,6 +53,7 @@ from app.views.people.pages import (
     PeoplePage,
     text_dialog,
 )
+from app.views.people.restoring import BackupRestorer
 from app.views.people.results_report import student_report, write_report
 from app.views.people.school_link import SchoolLink
 from app.views.people.stations import StationDoors, StationExchange
@@ -87,6 +88,7 @@ class PeopleFeature(Feature):
 
     Attributes:
         page: board, students and courses.
+        restorer: of backups.
         link: to the store that the stations of a school share.
         stations: results of several stations, written and brought together.
         dialog: the one that was opened last.
@@ -124,8 +126,15 @@ class PeopleFeature(Feature):
             )[0]
         leave = add_entries(menu, ((tr("Sign out"), "", lambda: ACCESS.sign_in(None)),))[0]
         with self._shell.made_for(STAFF):
-            save = add_entries(menu, ((tr("Back up everything…"), "", self.back_up),))[0]
-        self._actions = show, student, instructor, leave, save
+            save, restore = add_entries(
+                menu,
+                (
+                    (tr("Back up everything…"), "", self.back_up),
+                    (tr("Restore a backup…"), "", lambda: self.restorer.choose()),
+                ),
+            )
+        self._actions = show, student, instructor, leave, save, restore
+        self.restorer = BackupRestorer(self._doors())
         controller = context.conductor.controller
         self.link = SchoolLink(self._doors(), lambda: controller.is_running, self)
         self.link.told.connect(self.page.board.show_store)
@@ -632,7 +641,7 @@ class PeopleFeature(Feature):
 
     def _follow(self) -> None:
         """Show what who is here may do."""
-        show, student, instructor, leave, save = self._actions
+        show, student, instructor, leave, save, restore = self._actions
         here = ACCESS.student is not None or ACCESS.instructor
         show.setEnabled(ACCESS.may_manage or ACCESS.student is not None)
         show.setText(
@@ -648,6 +657,7 @@ class PeopleFeature(Feature):
         instructor.setEnabled(not ACCESS.instructor)
         leave.setEnabled(here)
         save.setEnabled(ACCESS.may_manage)
+        restore.setEnabled(ACCESS.may_manage)
         self.page.set_managing(ACCESS.may_manage)
         self.stations.set_managing(ACCESS.may_manage)
         if not show.isEnabled() and self.page.isVisible():
