@@ -5,6 +5,7 @@ computer of a station without a password), what, and about which keys and ids; n
 pseudonym, a path or a text. Its Ed25519 signature covers the digest of the line before, so that a
 line that was changed, taken out or put in is seen. Lines cut off at the end are not, unless
 somebody kept an earlier copy; whoever owns the disk can replace the station's key with the file.
+Before a station has a key its lines are chained alone; after the first signed one each is signed.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import re
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Final
@@ -107,7 +108,7 @@ def note(what: str, about: Sequence[str] = (), folder: Path | None = None) -> No
     if what not in WHAT:
         raise ValueError(what)
     try:
-        key = StationKey.of(folder)
+        key = _key(folder)
         ids = [one for one in map(str, about) if _ID.fullmatch(one)]
         with _held(audit_file(folder)) as descriptor:
             number, before = _last(descriptor)
@@ -119,9 +120,9 @@ def note(what: str, about: Sequence[str] = (), folder: Path | None = None) -> No
                 "about": ids if len(ids) <= _MANY else [],
                 "count": len(ids),
                 "before": before,
-                "public": key.public,
+                "public": "" if key is None else key.public,
             }
-            entry["signature"] = key.sign(_PURPOSE, entry)
+            entry["signature"] = "" if key is None else key.sign(_PURPOSE, entry)
             line = json.dumps(entry, ensure_ascii=True).encode() + b"\n"
             step("audit", audit_file(folder))
             os.write(descriptor, line)
@@ -146,31 +147,37 @@ def entries(folder: Path | None = None) -> list[AuditEntry]:
         lines = path.read_bytes().splitlines() if path.exists() else []
     except OSError as error:
         raise SessionError(f"{path}: {error.strerror}") from error
-    publics = set(StationKey.of(folder).publics) if lines else set()
-    before = _BEGIN
+    key = _key(folder)
+    publics = set() if key is None else set(key.publics)
+    before, signed = _BEGIN, False
     for place, line in enumerate(lines, 1):
-        result.append(_entry(line, place, before, publics))
-        before = hashlib.sha256(line).hexdigest()
+        entry, by_key = _entry(line, place, before, publics)
+        result.append(replace(entry, right=entry.right and (by_key or not signed)))
+        before, signed = hashlib.sha256(line).hexdigest(), signed or by_key
     return result
 
 
 # --- inside ---------------------------------------------------------------------------------------
-def _entry(line: bytes, place: int, before: str, publics: set[str]) -> AuditEntry:
+def _key(folder: Path | None) -> StationKey | None:
+    """Return the station's key; none is drawn for a line."""
+    return StationKey.of(folder) if key_file(folder).exists() else None
+
+
+def _entry(line: bytes, place: int, before: str, publics: set[str]) -> tuple[AuditEntry, bool]:
+    """Return a line, and whether a key signed it."""
     try:
         document = json.loads(line)
         signature = str(document.pop("signature"))
         public = str(document["public"])
-        right = (
-            public in publics
-            and document["before"] == before
-            and document["number"] == place
-            and signature_holds(public, _PURPOSE, document, signature)
-        )
+        holds = public in publics and signature_holds(public, _PURPOSE, document, signature)
+        right = (holds or not signature) and document["before"] == before
+        right = right and document["number"] == place
         about = tuple(map(str, document["about"]))
         time_, who, what = (str(document[name]) for name in ("time", "who", "what"))
-        return AuditEntry(place, time_, who, what, about, int(document["count"]), right)
+        entry = AuditEntry(place, time_, who, what, about, int(document["count"]), right)
+        return entry, bool(signature)
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
-        return AuditEntry(place, "", "", "", (), 0, right=False)
+        return AuditEntry(place, "", "", "", (), 0, right=False), True
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from app.session import audit
 from app.session.course import Course, CourseItem
 from app.session.people import People
 from app.session.roster import RosterLine
-from app.session.station import StationKey
+from app.session.station import StationKey, key_file
 
 
 @pytest.fixture(autouse=True)
@@ -52,6 +52,7 @@ def test_what_the_instructor_does_is_told_by_keys_and_never_by_names() -> None:
 
 
 def test_each_line_is_signed_as_openssl_verifies_it(tmp_path: Path) -> None:
+    StationKey.of()
     audit.note("key renewed", ["0123456789abcdef"])
     document = json.loads(audit.audit_file().read_text())
     signature = bytes.fromhex(document.pop("signature"))
@@ -74,6 +75,7 @@ def test_each_line_is_signed_as_openssl_verifies_it(tmp_path: Path) -> None:
 @settings(max_examples=60, deadline=None)
 @given(place=st.integers(0, 4), how=st.sampled_from(("change", "take out", "swap", "put in")))
 def test_a_line_that_was_changed_taken_out_or_put_in_is_seen(place: int, how: str) -> None:
+    StationKey.of()
     path = audit.audit_file()
     path.unlink(missing_ok=True)
     for number in range(6):
@@ -124,6 +126,22 @@ def test_several_programs_add_lines_at_one_time_and_none_is_lost() -> None:
     entries = audit.entries()
     assert all(one.right for one in entries)
     assert len({one.about for one in entries}) == 75
+
+
+def test_before_there_is_a_key_lines_are_chained_and_none_is_drawn_for_them() -> None:
+    audit.note("backup written")
+    assert not key_file().exists()
+    assert [one.right for one in audit.entries()] == [True]
+    StationKey.of()
+    audit.note("backup written")
+    assert [one.right for one in audit.entries()] == [True, True]
+    first, second = audit.audit_file().read_bytes().splitlines(keepends=True)
+    audit.audit_file().write_bytes(first.replace(b"backup written", b"station named") + second)
+    assert [one.right for one in audit.entries()] == [True, False]
+    key_file().rename(key_file().with_name("away"))
+    audit.note("backup written")  # unsigned after a signed one: somebody took the key away
+    key_file().with_name("away").rename(key_file())
+    assert [one.right for one in audit.entries()][2] is False
 
 
 def test_what_a_renewed_key_signed_before_still_holds() -> None:
