@@ -42,7 +42,7 @@ def connect(
     from contextlib import closing
 
     from app.session.people import People
-    from app.session.school_store import StorePlace, place_of_store, put_place
+    from app.session.school_store import StorePlace, place_of_store, put_place, require_password
     from app.session.school_store.synchronising import waiting
     from app.session.station import StationKey
 
@@ -51,6 +51,7 @@ def connect(
     if forget:
         put_place(None, people.folder)
     elif url:
+        require_password(people)
         place = StorePlace(url, objects, {}, gives, pins, names)
         with closing(place.store()) as store:
             store.open()

@@ -1,10 +1,10 @@
 """Who did what at this station: a file that is added to, each line signed and chained to the last.
 
-A line holds when, who (`instructor`, a student's random key, or `account`: whoever sits at the
-computer of a station without a password), what, and about which keys and ids; never a name, a
-pseudonym, a path or a text. Its Ed25519 signature covers the digest of the line before, so that a
-line that was changed, taken out or put in is seen. Lines cut off at the end are not, unless
-somebody kept an earlier copy; whoever owns the disk can replace the station's key with the file.
+A line holds when, who (`instructor`, a student's random key, `account`: whoever sits at the
+computer of a station without a password, or `program`: by itself), what, and about which keys and
+ids; never a name, a pseudonym, a path or a text. Its Ed25519 signature covers the digest of the
+line before, so that a line that was changed, taken out or put in is seen. Lines cut off at the end are
+not, unless somebody kept an earlier copy; whoever owns the disk can replace the key with the file.
 Before a station has a key its lines are chained alone; after the first signed one each is signed.
 """
 
@@ -32,6 +32,7 @@ FILE: Final = "audit.jsonl"
 
 ACCOUNT: Final = "account"
 INSTRUCTOR: Final = "instructor"
+PROGRAM: Final = "program"
 
 WHAT: Final = (
     "password set",
@@ -97,13 +98,14 @@ def act_as(who: str) -> None:
     _acting[0] = who
 
 
-def note(what: str, about: Sequence[str] = (), folder: Path | None = None) -> None:
+def note(what: str, about: Sequence[str] = (), folder: Path | None = None, who: str = "") -> None:
     """Add a line; where it cannot be written the program's log says so, and the work goes on.
 
     Args:
         what: one of `WHAT`.
         about: keys and ids; what is none is left out.
         folder: of the people.
+        who: did it, such as `program`; whoever is here without it.
     """
     if what not in WHAT:
         raise ValueError(what)
@@ -115,7 +117,7 @@ def note(what: str, about: Sequence[str] = (), folder: Path | None = None) -> No
             entry: dict[str, Any] = {
                 "number": number + 1,
                 "time": datetime.now(UTC).isoformat(timespec="seconds"),
-                "who": _acting[0],
+                "who": who or _acting[0],
                 "what": what,
                 "about": ids if len(ids) <= _MANY else [],
                 "count": len(ids),

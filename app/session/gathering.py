@@ -80,6 +80,7 @@ def gather_opened(
     people: People | None = None,
     progress: Progress | None = None,
     giving_way: frozenset[str] = frozenset(),
+    by: str = "",
 ) -> GatheredFile:
     """Take in several files as one, all of them or nothing.
 
@@ -92,6 +93,7 @@ def gather_opened(
         progress: reports, and may cancel.
         giving_way: SHA-256 of courses and exercises that came from elsewhere: where one of these
             is here still, another of its name takes its place.
+        by: who does it, for the audit trail; whoever is here without it.
 
     Raises:
         ArchiveError, OSError, zipfile.BadZipFile: as `gather_file`, for one of them.
@@ -107,7 +109,7 @@ def gather_opened(
     at.take(names, progress.part(0.2, 1.0))
     finish_erasing(folder, people)
     senders = sorted({one.manifest.sender.station for one in files})
-    note("files taken in", senders, people.folder)
+    note("files taken in", senders, people.folder, by)
     return at.done
 
 

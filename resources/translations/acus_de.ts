@@ -19210,10 +19210,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} stations wait to be let in: Stations, Exchange now</source>
+            <source>{n} stations wait to be let in: Stations, Exchange … now</source>
             <translation type="unfinished">
-                <numerusform>{n} Station wartet auf Einlass: Stationen, Jetzt austauschen</numerusform>
-                <numerusform>{n} Stationen warten auf Einlass: Stationen, Jetzt austauschen</numerusform>
+                <numerusform>{n} Station wartet auf Einlass: Stationen, Jetzt … austauschen</numerusform>
+                <numerusform>{n} Stationen warten auf Einlass: Stationen, Jetzt … austauschen</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20231,8 +20231,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Es wartete nichts darauf, gesendet zu werden.</translation>
         </message>
         <message>
-            <source>Compare each with what `acus store stations` says there.</source>
-            <translation type="unfinished">Vergleichen Sie jede mit dem, was `acus store stations` dort sagt.</translation>
+            <source>Compare each with Stations, This station… there.</source>
+            <translation type="unfinished">Vergleichen Sie jede dort mit Stationen, Diese Station…</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
@@ -20249,6 +20249,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Connect to the school's store…</source>
             <translation type="unfinished">Mit dem Speicher der Schule verbinden…</translation>
+        </message>
+        <message>
+            <source>This station…</source>
+            <translation type="unfinished">Diese Station…</translation>
+        </message>
+        <message>
+            <source>Others compare this before they let it in:</source>
+            <translation type="unfinished">Andere vergleichen dies, bevor sie sie einlassen:</translation>
+        </message>
+        <message>
+            <source>This station</source>
+            <translation type="unfinished">Diese Station</translation>
         </message>
         <message>
             <source>Write this station's results</source>
@@ -20359,12 +20371,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">die Objekte des Speichers der Schule sind nicht zu benutzen: diese Station macht weiter und versucht es wieder ({reason})</translation>
         </message>
         <message>
+            <source>set the instructor's password first (`acus people instructor`): without one whoever sits here could erase students at all stations</source>
+            <translation type="unfinished">erst das Passwort des Kursleiters setzen (`acus people instructor`): ohne es könnte, wer hier sitzt, Teilnehmer an allen Stationen löschen</translation>
+        </message>
+        <message>
             <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
             <translation type="unfinished">{path} sagt nicht, wo der Speicher der Schule ist: diese Station mit `acus store connect URL` neu verbinden</translation>
         </message>
         <message>
             <source>cannot write {path}: {reason}</source>
             <translation type="unfinished">{path} ist nicht zu schreiben: {reason}</translation>
+        </message>
+        <message>
+            <source>the school's store {name} is not there: look whether its share is mounted; this station goes on and tries again</source>
+            <translation type="unfinished">der Speicher der Schule {name} ist nicht da: nachsehen, ob seine Freigabe eingebunden ist; diese Station macht weiter und versucht es wieder</translation>
         </message>
         <message>
             <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
@@ -20405,6 +20425,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
             <translation type="unfinished">{name} enthält Tabellen eines anderen Programms ({table}): dem Speicher der Schule eine eigene Datenbank geben</translation>
+        </message>
+        <message>
+            <source>{name} holds no school's store any more: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{name} enthält keinen Speicher einer Schule mehr: diese Station mit `acus store connect URL` neu verbinden</translation>
         </message>
         <message>
             <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>

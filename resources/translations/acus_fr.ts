@@ -19210,10 +19210,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} stations wait to be let in: Stations, Exchange now</source>
+            <source>{n} stations wait to be let in: Stations, Exchange … now</source>
             <translation type="unfinished">
-                <numerusform>{n} poste attend d’être admis : Postes, Échanger maintenant</numerusform>
-                <numerusform>{n} postes attendent d’être admis : Postes, Échanger maintenant</numerusform>
+                <numerusform>{n} poste attend d’être admis : Postes, Échanger maintenant…</numerusform>
+                <numerusform>{n} postes attendent d’être admis : Postes, Échanger maintenant…</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20231,8 +20231,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rien n’attendait d’être envoyé.</translation>
         </message>
         <message>
-            <source>Compare each with what `acus store stations` says there.</source>
-            <translation type="unfinished">Comparez chacun avec ce que dit `acus store stations` là-bas.</translation>
+            <source>Compare each with Stations, This station… there.</source>
+            <translation type="unfinished">Comparez chacun avec Postes, Ce poste… là-bas.</translation>
         </message>
         <message>
             <source>Let these stations in?</source>
@@ -20249,6 +20249,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Connect to the school's store…</source>
             <translation type="unfinished">Se connecter à la base de l’école…</translation>
+        </message>
+        <message>
+            <source>This station…</source>
+            <translation type="unfinished">Ce poste…</translation>
+        </message>
+        <message>
+            <source>Others compare this before they let it in:</source>
+            <translation type="unfinished">Les autres comparent ceci avant de l’admettre :</translation>
+        </message>
+        <message>
+            <source>This station</source>
+            <translation type="unfinished">Ce poste</translation>
         </message>
         <message>
             <source>Write this station's results</source>
@@ -20359,12 +20371,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">les objets de la base de l’école sont inutilisables : ce poste continue et réessaie ({reason})</translation>
         </message>
         <message>
+            <source>set the instructor's password first (`acus people instructor`): without one whoever sits here could erase students at all stations</source>
+            <translation type="unfinished">définissez d’abord le mot de passe du formateur (`acus people instructor`) : sans lui, quiconque est ici pourrait effacer des étudiants sur tous les postes</translation>
+        </message>
+        <message>
             <source>{path} does not say where the school's store is: connect this station again with `acus store connect URL`</source>
             <translation type="unfinished">{path} ne dit pas où est la base de l’école : reconnectez ce poste avec `acus store connect URL`</translation>
         </message>
         <message>
             <source>cannot write {path}: {reason}</source>
             <translation type="unfinished">impossible d’écrire {path} : {reason}</translation>
+        </message>
+        <message>
+            <source>the school's store {name} is not there: look whether its share is mounted; this station goes on and tries again</source>
+            <translation type="unfinished">la base de l’école {name} n’est pas là : vérifiez que son partage est monté ; ce poste continue et réessaie</translation>
         </message>
         <message>
             <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
@@ -20405,6 +20425,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
             <translation type="unfinished">{name} contient les tables d’un autre programme ({table}) : donnez à la base de l’école une base à elle</translation>
+        </message>
+        <message>
+            <source>{name} holds no school's store any more: connect this station again with `acus store connect URL`</source>
+            <translation type="unfinished">{name} ne contient plus la base d’une école : reconnectez ce poste avec `acus store connect URL`</translation>
         </message>
         <message>
             <source>{rule!r} is no rule for grades: take best, first, last, or mean:3 for the mean of the last three</source>

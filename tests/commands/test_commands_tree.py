@@ -124,7 +124,7 @@ EXAMPLES = {
     "store audit": (),
     "store check": (),
     "store backup": ("--out", "all.acusbackup"),
-    "store connect": ("sqlite:///school.sqlite",),
+    "store connect": (),
     "store empty-trash": (),
     "store rebuild": (),
     "store renew": (),

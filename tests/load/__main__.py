@@ -95,10 +95,15 @@ def main() -> int:
 def _run(asked, rng, root, home, made, server, proxy, url, program) -> int:
     shutil.copytree(home / "data", root / "head" / "data")
     (root / "head" / "data" / "people" / "station.key").unlink()
+    from app.session.school_store import SchoolStore
+
     names = ["head", *(f"s{number:02d}" for number in range(1, asked.stations))]
     day = 86400.0
     stations = [program(root / name, home, url, rng.uniform(-day, day)) for name in names]
     head = stations[0]
+    store = SchoolStore(server.url())
+    store.open()
+    store.close()
     print("head", head.ask("sync"))
     begun = time.monotonic()
     with ThreadPoolExecutor(4) as beside:  # each is let in by the head's course

@@ -27,14 +27,18 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 def history(root: Path) -> None:
     """Make packets, and the home of a station that has taken in nothing yet."""
+    from contextlib import closing
+
     from school_stations import SchoolStation, headed, pool
 
     from app.session.erasing import erase_person
     from app.session.people import People
-    from app.session.school_store import StorePlace, synchronise
+    from app.session.school_store import SchoolStore, StorePlace, synchronise
     from app.session.stations import renew_key
 
     url = f"sqlite:///{root / 'school.sqlite'}"
+    with closing(SchoolStore(url)) as store:
+        store.open()
     with pytest.MonkeyPatch.context() as patch:
         head = headed(root / "head", patch)
         others = [SchoolStation(root / name, name, patch) for name in ("north", "south", "west")]

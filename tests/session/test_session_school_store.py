@@ -12,6 +12,7 @@ import pytest
 from postgres_rig import PASSWORD, Postgres
 from school_stations import SchoolStation, headed, pool, stored
 
+from app.session import audit
 from app.session.course import Course, CourseItem, courses
 from app.session.erasing import erase_person
 from app.session.people import People
@@ -23,6 +24,7 @@ from app.session.school_store import (
     UnreachableStoreError,
     place_of_store,
     put_place,
+    require_password,
     synchronise,
 )
 from app.session.school_store.tables import metadata
@@ -40,10 +42,18 @@ def place(request: pytest.FixtureRequest, tmp_path: Path) -> StorePlace:
     if request.param == "postgresql":
         server = request.getfixturevalue("postgres")
         _emptied(server.url())
-        return StorePlace(server.url())
+        return made(StorePlace(server.url()))
     url = f"sqlite:///{tmp_path / 'school.sqlite'}"
     objects = f"file://{tmp_path / 'objects'}" if request.param == "objects" else ""
-    return StorePlace(url, objects)
+    return made(StorePlace(url, objects))
+
+
+def made(place: StorePlace) -> StorePlace:
+    """Make the tables of a store."""
+    store = place.store()
+    store.open()
+    store.close()
+    return place
 
 
 def _emptied(url: str) -> None:
@@ -122,6 +132,7 @@ def test_who_is_erased_is_erased_everywhere_and_in_the_store(
     store = place.store()
     store.open()
     assert ada not in store.students()
+    assert all(ada not in str(row) for row in _every_row(place))
     told = b"".join(store.data(store.courses()).values())
     store.close()
     assert ada.encode() not in told
@@ -129,6 +140,16 @@ def test_who_is_erased_is_erased_everywhere_and_in_the_store(
     if place.objects:
         files = [path for path in (tmp_path / "objects").rglob("*") if path.is_file()]
         assert all(ada.encode() not in _unpacked(path) for path in files)
+
+
+def _every_row(place: StorePlace) -> list[object]:
+    from sqlalchemy import create_engine
+
+    engine = create_engine(place.url)
+    with engine.connect() as connection:
+        rows = list(connection.exec_driver_sql("SELECT * FROM packets"))
+    engine.dispose()
+    return rows
 
 
 def _unpacked(path: Path) -> bytes:
@@ -140,7 +161,7 @@ def test_a_store_that_was_put_back_to_an_older_state_gets_everything_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = tmp_path / "school.sqlite"
-    place = StorePlace(f"sqlite:///{file}")
+    place = made(StorePlace(f"sqlite:///{file}"))
     head, north, south = school(tmp_path, monkeypatch)
     ada, bob = key_of("Ada"), key_of("Bob")
     for station in (head, north, south):
@@ -248,7 +269,7 @@ def test_a_packet_that_was_altered_in_the_store_is_named_and_the_others_are_take
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = tmp_path / "school.sqlite"
-    place = StorePlace(f"sqlite:///{file}")
+    place = made(StorePlace(f"sqlite:///{file}"))
     head, north, _ = school(tmp_path, monkeypatch)
     meet(head, place)
     meet(north, place)
@@ -382,7 +403,7 @@ def test_a_server_that_stalls_is_cut_and_this_station_goes_on(
     _emptied(postgres.url())
     _, north, _ = school(tmp_path, monkeypatch)
     with StallingProxy(postgres.port) as proxy:
-        place = StorePlace(postgres.url(proxy.port), seconds=1.0)
+        place = made(StorePlace(postgres.url(proxy.port), seconds=1.0))
         meet(north, place)
         north.record(key_of("Ada"))
         for behave in ("stall", "cut"):
@@ -393,3 +414,39 @@ def test_a_server_that_stalls_is_cut_and_this_station_goes_on(
         assert meet(north, place).sent == 1
     document = json.loads(north.enter().setting("school store"))
     assert document["confirmed"] == 1
+
+
+def test_an_empty_folder_of_a_share_that_is_not_mounted_gets_no_store_of_its_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Seen: a station went on as "up to date" with a store that it had made beside the mount."""
+    _, north, _ = school(tmp_path, monkeypatch)
+    (tmp_path / "share").mkdir()
+    with pytest.raises(UnreachableStoreError, match="is not there: look whether its share"):
+        meet(north, StorePlace(f"sqlite:///{tmp_path / 'share' / 'school.sqlite'}"))
+    assert not list((tmp_path / "share").iterdir())
+    empty = tmp_path / "share" / "empty.sqlite"
+    empty.touch()
+    with pytest.raises(StoreError, match="holds no school's store any more"):
+        meet(north, StorePlace(f"sqlite:///{empty}"))
+
+
+def test_only_a_station_with_a_password_shares_a_store() -> None:
+    people = People()
+    with pytest.raises(StoreError, match="set the instructor's password first"):
+        require_password(people)
+    people.set_instructor("correct horse battery")
+    require_password(people)
+
+
+def test_what_the_program_exchanges_by_itself_is_not_told_of_whoever_is_here(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place = made(StorePlace(f"sqlite:///{tmp_path / 'school.sqlite'}"))
+    head, north, _ = school(tmp_path, monkeypatch)
+    meet(head, place)
+    north.record(key_of("Ada"))
+    people = north.enter()
+    synchronise(place, north.folder, people, True, by=audit.PROGRAM)
+    told = {(one.who, one.what) for one in audit.entries()}
+    assert {("program", "store synchronised"), ("program", "files taken in")} <= told

@@ -1,17 +1,24 @@
 """The school's store in the window: connected to, kept up to date, and off the network."""
 
-import shutil
-
 import pytest
-from PySide6.QtWidgets import QCheckBox, QPlainTextEdit
+from PySide6.QtWidgets import QCheckBox, QLabel, QPlainTextEdit
 from test_views_people import record
 
 from app.session.people import People
 from app.session.roster import RosterLine
 from app.session.school_store import StorePlace, place_of_store, put_place, synchronise
-from app.session.stations import set_name
+from app.session.station import StationKey
+from app.session.stations import fingerprint, set_name
 from app.views.kit.access import ACCESS
 from app.views.people.feature import PeopleFeature
+
+
+def made(place):
+    """Make the tables of a store."""
+    store = place.store()
+    store.open()
+    store.close()
+    return place
 
 
 @pytest.fixture
@@ -21,7 +28,8 @@ def feature(window):
 
 
 def other_station(monkeypatch, root, place, *attempts):
-    """Another station meets the store."""
+    """Another station meets the store, and makes it first."""
+    made(place)
     with monkeypatch.context() as other:
         other.setenv("ACUS_DATA", str(root / "data"))
         set_name("Theatre 2")
@@ -36,6 +44,11 @@ def test_a_station_is_connected_and_lets_another_one_in(
     folder = feature.context.services.sessions()
     place = StorePlace(f"sqlite:///{tmp_path / 'school.sqlite'}")
     other_station(monkeypatch, tmp_path / "other", place, "b")
+    feature.link.connect_store()
+    assert "set the instructor's password first" in feature.dialog.findChild(QLabel).text()
+    feature.dialog.close()
+    People().set_instructor("correct horse battery")
+    ACCESS.sign_in(None, instructor=True)
     record(folder, "a", People().add(RosterLine("Ada"))[0].key, 72.0)
     feature.show()
     feature.link.connect_store()
@@ -45,6 +58,14 @@ def test_a_station_is_connected_and_lets_another_one_in(
     assert "is no URL of a school's store" in dialog.note.text()
     dialog.lines[0].setText(place.url)
     dialog.findChildren(QCheckBox)[0].setChecked(True)
+    dialog.lines[0].setText("postgresql://acus:secret@127.0.0.1:1/acus")
+    dialog.save()
+    assert settle(lambda: feature.dialog is not None and feature.dialog is not dialog)
+    dialog = feature.dialog  # again, with what was typed and what is wrong with it
+    assert "does not answer" in dialog.note.text()
+    assert dialog.lines[0].text().startswith("postgresql://acus")
+    assert dialog.findChildren(QCheckBox)[0].isChecked()
+    dialog.lines[0].setText(place.url)
     dialog.save()
     assert settle(lambda: feature.dialog is not None and feature.dialog is not dialog)
     asked = feature.dialog
@@ -70,7 +91,7 @@ def test_what_comes_is_taken_in_quietly_but_not_while_an_attempt_runs(
     window, feature, settle, tmp_path, monkeypatch
 ):
     folder = feature.context.services.sessions()
-    place = StorePlace(f"sqlite:///{tmp_path / 'school.sqlite'}")
+    place = made(StorePlace(f"sqlite:///{tmp_path / 'school.sqlite'}"))
     synchronise(place, folder, People())
     other_station(monkeypatch, tmp_path / "other", place, "b")
     synchronise(place, folder, People(), trust=True)
@@ -94,17 +115,20 @@ def test_a_store_that_is_away_is_told_with_how_many_attempts_wait(
     folder = feature.context.services.sessions()
     share = tmp_path / "share"
     share.mkdir()
-    place = StorePlace(f"sqlite:///{share / 'school.sqlite'}")
+    place = made(StorePlace(f"sqlite:///{share / 'school.sqlite'}"))
     put_place(place)
     synchronise(place, folder, People())
     record(folder, "a", "Ada", 72.0)
-    shutil.rmtree(share)
+    share.rename(tmp_path / "away")
+    share.mkdir()  # as the empty folder of a share that is not mounted
     feature.show()
     feature.link.quietly()
     board = feature.page.board
-    assert settle(lambda: "here is no folder" in board.store.text())
+    assert settle(lambda: "is not there: look whether its share is mounted" in board.store.text())
     assert board.store.text().endswith("1 attempt waits to be sent.")
-    share.mkdir()
+    assert not list(share.iterdir())
+    share.rmdir()
+    (tmp_path / "away").rename(share)
     feature.link.now()
     assert settle(lambda: board.store.text().startswith("School's store: up to date"))
     assert settle(lambda: feature.dialog is not None)
@@ -121,3 +145,12 @@ def test_the_store_is_the_instructors(window, feature, settle, tmp_path):
     feature.link.connect_store()
     assert len(said) == 2
     assert feature.dialog is None
+
+
+def test_a_station_shows_what_others_compare(window, feature, settle):
+    set_name("Theatre 1")
+    feature.show()
+    feature.stations.show_station()
+    lines = feature.dialog.findChild(QPlainTextEdit).toPlainText().splitlines()
+    assert lines == ["Theatre 1", fingerprint(StationKey.of().public)]
+    feature.dialog.close()

@@ -10,7 +10,12 @@ The door: `SchoolStore`, `synchronise`, and `place_of_store`, where it is.
 """
 
 from app.session.school_store.errors import StoreError, UnreachableStoreError
-from app.session.school_store.place import StorePlace, place_of_store, put_place
+from app.session.school_store.place import (
+    StorePlace,
+    place_of_store,
+    put_place,
+    require_password,
+)
 from app.session.school_store.store import SchoolStore
 from app.session.school_store.synchronising import Synchronised, synchronise
 
@@ -22,5 +27,6 @@ __all__ = [
     "UnreachableStoreError",
     "place_of_store",
     "put_place",
+    "require_password",
     "synchronise",
 ]

@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from app.core.files import write_atomically
 from app.core.messages import sentence
-from app.session.people import people_folder
+from app.session.people import People, people_folder
 from app.session.school_store.errors import StoreError
 from app.session.school_store.objects import Objects
 from app.session.school_store.store import SchoolStore
@@ -50,6 +50,23 @@ class StorePlace:
         """
         objects = Objects(self.objects, **self.options) if self.objects else None
         return SchoolStore(self.url, objects, self.seconds)
+
+
+def require_password(people: People) -> None:
+    """Let only a station whose people are guarded share a store.
+
+    Whoever sits at one without a password could erase students of the whole school.
+
+    Raises:
+        StoreError: if no password is set.
+    """
+    if not people.has_instructor():
+        raise StoreError(
+            sentence(
+                "set the instructor's password first (`acus people instructor`): without one "
+                "whoever sits here could erase students at all stations"
+            )
+        )
 
 
 def place_of_store(folder: Path | None = None) -> StorePlace | None:

@@ -20,7 +20,7 @@ from app.core.extras import not_installed
 from app.core.files import step
 from app.core.messages import sentence
 from app.session.database import lockable
-from app.session.school_store.errors import StoreError, named_errors
+from app.session.school_store.errors import StoreError, UnreachableStoreError, named_errors
 from app.session.school_store.objects import Objects
 from app.session.school_store.packet import ATTEMPT, COURSE, REMARKS, STATION, Packet, PacketRow
 from app.session.school_store.tables import BEGIN, about, chained, packets, upgrade
@@ -76,19 +76,39 @@ class SchoolStore:
         return url.render_as_string(hide_password=True)
 
     @property
+    def _file(self) -> Path | None:
+        """Return its file; None of a server."""
+        from sqlalchemy import make_url
+
+        url = make_url(self._url)
+        return Path(str(url.database)) if url.get_backend_name() == "sqlite" else None
+
+    @property
     def seconds(self) -> float:
         """Return what one answer may take [s]."""
         return self._seconds
 
-    def open(self) -> None:
-        """Connect, and make the tables or bring them up to date; again it changes nothing.
+    def open(self, make: bool = True) -> None:
+        """Connect, and bring the tables up to date; again it changes nothing.
+
+        Args:
+            make: the tables where there are none. A share that is not mounted is an empty folder:
+                who only exchanges makes no store of his own there.
 
         Raises:
-            UnreachableStoreError: if it does not answer in time.
+            UnreachableStoreError: if it does not answer in time, or is not there.
             StoreError: naming the store, if it refuses, is of a newer version or none.
         """
+        if not make and (path := self._file) is not None and not path.exists():
+            raise UnreachableStoreError(
+                sentence(
+                    "the school's store {name} is not there: look whether its share is mounted; "
+                    "this station goes on and tries again",
+                    name=self.name,
+                )
+            )
         with self._writing() as connection:
-            upgrade(connection, self.name)
+            upgrade(connection, self.name, make)
             if connection.execute(about().select()).first() is None:
                 connection.execute(about().insert(), {"store": uuid4().hex})
 
@@ -262,6 +282,10 @@ class SchoolStore:
                     gone += connection.execute(select(t.digest).where(*which)).scalars().all()
                     blank = update(packets()).where(*which)
                     connection.execute(blank.values(gone=True, data=None))
+                if column is t.student and values:  # nor whom the rows were about
+                    of_them = update(packets()).where(t.student.in_(values), t.gone.is_(True))
+                    connection.execute(of_them.where(t.kind == REMARKS).values(item=""))
+                    connection.execute(of_them.values(student=""))
         self._discard(gone)
         return len(gone)
 

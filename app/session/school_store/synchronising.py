@@ -120,6 +120,7 @@ def synchronise(
     people: People | None = None,
     trust: bool = False,
     progress: Progress | None = None,
+    by: str = "",
 ) -> Synchronised:
     """Send what is new here, take in what is new there.
 
@@ -129,6 +130,7 @@ def synchronise(
         people: of this station.
         trust: let stations in that are not known here.
         progress: reports, and may cancel.
+        by: who does it, for the audit trail; whoever is here without it.
 
     Raises:
         UnreachableStoreError: if the store does not answer; what was done stays done.
@@ -138,8 +140,8 @@ def synchronise(
     people, progress = people or People(), progress or Progress()
     key = up_to_date(folder, people, progress.part(0.0, 0.1))
     with closing(place.store()) as store:
-        store.open()
-        at = _Synchronising(store, place, folder, people, key, trust)
+        store.open(make=False)
+        at = _Synchronising(store, place, folder, people, key, trust, by)
         at.send(progress.part(0.1, 0.4))
         at.state.keep(people)
         at.take(progress.part(0.4, 0.9))
@@ -152,7 +154,7 @@ def synchronise(
             at.result = replace(at.result, gathered=replace(at.result.gathered, excess=excess))
         at.state.keep(people)
     if at.result.sent or at.changed:
-        note("store synchronised", folder=people.folder)
+        note("store synchronised", folder=people.folder, who=by)
     return at.result
 
 
@@ -174,9 +176,10 @@ class _Synchronising:
         people: People,
         key: StationKey,
         trust: bool,
+        by: str,
     ) -> None:
         self.store, self.place, self.folder, self.people = store, place, folder, people
-        self.key, self.trust = key, trust
+        self.key, self.trust, self.by = key, trust, by
         self.result, self.changed = Synchronised(store.name), False
         self.state = SyncState.of(people)
         self.strange: set[str] = set()
@@ -275,7 +278,9 @@ class _Synchronising:
     def _gather(self, files: list[OpenedFile]) -> None:
         way, names = self.state.files, self.place.names
         try:
-            done = gather_opened(files, self.folder, self.trust, names, self.people, giving_way=way)
+            done = gather_opened(
+                files, self.folder, self.trust, names, self.people, giving_way=way, by=self.by
+            )
         except ArchiveError as error:
             if len(files) == 1:
                 self._refuse(sentence_of(error))

@@ -98,15 +98,17 @@ def revision_of(connection: Connection) -> str:
     return MigrationContext.configure(connection).get_current_revision() or ""
 
 
-def upgrade(connection: Connection, name: str) -> None:
+def upgrade(connection: Connection, name: str, make: bool = True) -> None:
     """Bring the schema up to date, inside the transaction of the connection.
 
     Args:
         connection: which holds the store alone.
         name: of the store, for messages.
+        make: the tables where there are none.
 
     Raises:
-        StoreError: if a newer version of Acus made it, or it holds tables of another program.
+        StoreError: if there are none and none are made, a newer version of Acus made them, or it
+            holds tables of another program.
     """
     from alembic import command
     from alembic.config import Config
@@ -135,6 +137,14 @@ def upgrade(connection: Connection, name: str) -> None:
                 "database of its own",
                 name=name,
                 table=others[0],
+            )
+        )
+    if not here and not make:
+        raise StoreError(
+            sentence(
+                "{name} holds no school's store any more: connect this station again with `acus "
+                "store connect URL`",
+                name=name,
             )
         )
     if here != HEAD:

@@ -11,13 +11,17 @@ from PySide6.QtCore import QObject, QTime, QTimer, Signal
 from PySide6.QtWidgets import QCheckBox, QMessageBox
 
 from app.core.errors import AcusError
+from app.core.messages import sentence_of
 from app.core.progress import Progress
+from app.session.audit import PROGRAM
 from app.session.errors import PeopleError, SessionError
 from app.session.school_store import (
+    StoreError,
     StorePlace,
     Synchronised,
     place_of_store,
     put_place,
+    require_password,
     synchronise,
 )
 from app.session.school_store.synchronising import waiting
@@ -96,7 +100,7 @@ class SchoolLink(QObject):
             return
 
         def work(progress: Progress) -> Synchronised | NotReached:
-            return self._exchange(place, False, progress)
+            return self._exchange(place, False, progress, PROGRAM)
 
         self._task = run_in_background(self, work, self._done_quietly, self._failed)
         self._task.finished.connect(self._ended)
@@ -112,7 +116,14 @@ class SchoolLink(QObject):
         """Ask where the store is, and connect to it."""
         if not self._doors.may():
             return
-        known = self._place()
+        try:
+            require_password(self._doors.people)
+        except StoreError as error:
+            self._doors.tell(tr("The school's store"), translated(error), "")
+            return
+        self._ask(self._place() or StorePlace("", pins=True))
+
+    def _ask(self, known: StorePlace, trouble: str = "") -> None:
         words = tr(
             "The database that the stations of a school share: postgresql+psycopg://user:"
             "password@host/name, or sqlite:////folder/file.sqlite on a share. Empty: none."
@@ -122,10 +133,7 @@ class SchoolLink(QObject):
 
         def take(url: str) -> None:
             place = replace(
-                known or StorePlace(""),
-                url=url.strip(),
-                gives_course=gives.isChecked(),
-                pins=pins.isChecked(),
+                known, url=url.strip(), gives_course=gives.isChecked(), pins=pins.isChecked()
             )
             if place.url:
                 place.store().name  # noqa: B018 - says what is wrong with a URL
@@ -133,14 +141,14 @@ class SchoolLink(QObject):
 
         parent = self._doors.parent()
         dialog = EntryDialog(tr("The school's store"), ((tr("URL"), False),), take, words, parent)
-        for box, on in ((gives, known is not None and known.gives_course), (pins, True)):
+        for box, on in ((gives, known.gives_course), (pins, known.pins)):
             box.setParent(dialog)
             box.setChecked(on)
             dialog.form.addRow(box)
-        if known is not None:
-            pins.setChecked(known.pins)
-            dialog.lines[0].setText(known.url)
+        dialog.lines[0].setText(known.url)
         self._doors.open(dialog)
+        if trouble:
+            dialog.say(trouble)
 
     def now(self, trust: bool = False) -> None:
         """Exchange what is new, with progress, and say what came of it.
@@ -177,14 +185,20 @@ class SchoolLink(QObject):
     def _take_place(self, place: StorePlace) -> None:
         folder = self._doors.people.folder
 
-        def work(_: Progress) -> None:
+        def work(_: Progress) -> str:
             if place.url:
-                with closing(place.store()) as store:
-                    store.open()
+                try:
+                    with closing(place.store()) as store:
+                        store.open()
+                except StoreError as error:
+                    return sentence_of(error)
             put_place(place if place.url else None, folder)
+            return ""
 
-        def done(_: None) -> None:
-            if place.url:
+        def done(trouble: str) -> None:
+            if trouble:
+                self._ask(place, translated(trouble))
+            elif place.url:
                 self.now()
             else:
                 self.told.emit("")
@@ -192,12 +206,12 @@ class SchoolLink(QObject):
         self._doors.beside(work, done, tr("Connecting to the school's store"))
 
     def _exchange(
-        self, place: StorePlace, trust: bool, progress: Progress
+        self, place: StorePlace, trust: bool, progress: Progress, by: str = ""
     ) -> Synchronised | NotReached:
         """Exchange what is new; called beside the window."""
         folder, people = self._doors.folder, self._doors.people
         try:
-            return synchronise(place, folder, people, trust, progress)
+            return synchronise(place, folder, people, trust, progress, by)
         except SessionError as error:
             number = 0
             with suppress(AcusError):
@@ -226,8 +240,8 @@ class SchoolLink(QObject):
         if left:
             parts.append(
                 tr_n(
-                    "{n} station waits to be let in: Stations, Exchange now",
-                    "{n} stations wait to be let in: Stations, Exchange now",
+                    "{n} station waits to be let in: Stations, Exchange … now",
+                    "{n} stations wait to be let in: Stations, Exchange … now",
                     left,
                 )
             )
@@ -246,7 +260,7 @@ class SchoolLink(QObject):
             self._doors.tell(tr("The school's store"), sent if result.sent else nothing, lines)
             return
         strange = "\n".join(f"{one.name}: {one.fingerprint}" for one in result.unknown)
-        words = tr("Compare each with what `acus store stations` says there.") + f"\n\n{strange}"
+        words = tr("Compare each with Stations, This station… there.") + f"\n\n{strange}"
         title = tr("The school's store")
         box = message_box(self._doors.parent(), title, tr("Let these stations in?"), words)
         accept = box.addButton(tr("Let them in"), QMessageBox.ButtonRole.AcceptRole)

@@ -16,6 +16,8 @@ from app.session.gathering import GatheredFile, gather_file
 from app.session.people import People
 from app.session.results_file import WrittenFile, write_course, write_results
 from app.session.school_file import UnknownStationError
+from app.session.station import StationKey
+from app.session.stations import fingerprint, name_of_station
 from app.views.kit.parts import message_box
 from app.views.kit.text import tr, tr_n, translated
 
@@ -93,6 +95,7 @@ class StationExchange:
             (tr("Bring results of stations together…"), self.choose_files),
             (tr("Write this station's results…"), self.choose_results),
             (tr("Write the course for a station…"), self.choose_course),
+            (tr("This station…"), self.show_station),
         ):
             entry = menu.addAction(title)
             entry.triggered.connect(lambda *_, action=action: action())
@@ -103,6 +106,15 @@ class StationExchange:
         """Offer what the menu does, or nothing of it."""
         for entry in self._actions:
             entry.setEnabled(may)
+
+    def show_station(self) -> None:
+        """Show what this station is called, and what others compare of its key."""
+        if not self._doors.may():
+            return
+        key = StationKey.of(self._doors.people.folder)
+        name = name_of_station(self._doors.people, key)
+        words = tr("Others compare this before they let it in:")
+        self._doors.tell(tr("This station"), words, f"{name}\n{fingerprint(key.public)}")
 
     # --- bringing together ------------------------------------------------------------------------
     def choose_files(self) -> None:
