@@ -26,6 +26,7 @@ from app.exchange.moodle import MoodleChoice, moodle_text
 from app.scoring.competence import competence_words
 from app.scoring.conditions import comparison_groups
 from app.session.accounts import Account
+from app.session.audit import note
 from app.session.board import ProgressBoard
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
@@ -132,6 +133,7 @@ def write_results(path: Path, text: str) -> None:
     Raises:
         ExportError: if it cannot be written.
     """
+    note("results written")
     if path.suffix.lower() == ".csv":
         write_csv(path, text)
         return

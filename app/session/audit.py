@@ -3,8 +3,8 @@
 A line holds when, who (`instructor`, a student's random key, `account`: whoever sits at the
 computer of a station without a password, or `program`: by itself), what, and about which keys and
 ids; never a name, a pseudonym, a path or a text. Its Ed25519 signature covers the digest of the
-line before, so that a line that was changed, taken out or put in is seen. Lines cut off at the end are
-not, unless somebody kept an earlier copy; whoever owns the disk can replace the key with the file.
+line before, so that a line that was changed, taken out or put in is seen. Lines cut off at the end
+are not, unless somebody kept an earlier copy; who owns the disk can replace key and file.
 Before a station has a key its lines are chained alone; after the first signed one each is signed.
 """
 

@@ -15,6 +15,7 @@ from app.core.files import replace as put_in_place
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.archive import own_files
+from app.session.audit import note
 from app.session.backup_file import ArchiveError, may_hold
 from app.session.course import Course, courses_folder
 from app.session.errors import SessionError
@@ -131,6 +132,7 @@ def write_results(
         write_manifest(archive, manifest, key)
         return WrittenFile(len(taken), len(mine), len(stones), left_out=tuple(left))
 
+    note("results written", folder=people.folder)
     return _whole(out, people, fill)
 
 

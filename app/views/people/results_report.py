@@ -21,6 +21,7 @@ from app.exchange.errors import ExportError
 from app.exchange.results import Results
 from app.scoring.competence import Competence, CompetenceState
 from app.scoring.tolerance import Band
+from app.session.audit import note
 from app.session.board import CurvePoint
 from app.session.people import Person
 from app.views.debrief.report import BAND_INKS, DIM, INK, LINE, MARGIN, RULE, WIDTH, font
@@ -77,6 +78,7 @@ def write_report(path: Path, draw: Callable[[], bytes]) -> None:
         ExportError: if it cannot be written.
     """
     # Text needs an application; the platform without a display is enough.
+    note("results written")
     application = QApplication.instance() or QApplication(["acus", "-platform", "offscreen"])
     try:
         write_atomically(path, draw())
