@@ -93,7 +93,9 @@ def check(
     ] = None,
     folder: FolderOption = None,
 ) -> Answer:
-    """Read everything here, or a backup, and say what is not as it was written (instructor).
+    """Read what is here, or a backup, for damage (instructor).
+
+    What is not as it was written is named.
 
     Every record is read whole and held against its signature, the list of people and the audit
     trail are looked through, every file of a backup is held against its list. Nothing is changed.
