@@ -1,0 +1,89 @@
+"""Who does the parts: this process, processes of this computer, or the workers of a scheduler."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from types import TracebackType
+from typing import Any, Protocol, Self
+
+from app.cohort.errors import CohortError
+from app.cohort.running import Do
+from app.cohort.table import Row
+from app.core.messages import sentence
+from app.core.progress import Progress
+
+Made = tuple[list[Row], float, float]
+"""Rows of a part, and what preparing and working took of a processor [s]."""
+
+
+class Crew(Protocol):
+    """Does parts, in any order. It is opened by `with` only where there is something to do."""
+
+    @property
+    def workers(self) -> int:
+        """Return how many processes work."""
+
+    def __enter__(self) -> Self:
+        """Begin."""
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Let everybody go."""
+
+    def results(
+        self, todo: Sequence[tuple[Do, dict[str, Any]]], progress: Progress
+    ) -> Iterator[tuple[int, Made]]:
+        """Do the parts; yield the place of each in the list, and what it made, as they are done.
+
+        Raises:
+            CohortError: if the crew cannot go on.
+            Cancelled: if `progress` was cancelled.
+        """
+
+
+class Here:
+    """This process, one part after the other; needs no other program."""
+
+    workers = 1
+
+    def __enter__(self) -> Self:
+        """Begin."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End."""
+
+    def results(
+        self, todo: Sequence[tuple[Do, dict[str, Any]]], progress: Progress
+    ) -> Iterator[tuple[int, Made]]:
+        """Do the parts in their order."""
+        for place, (do, given) in enumerate(todo):
+            progress.check()
+            yield place, do(given)
+
+
+def crew_of(scheduler: str = "", local: int = 1) -> Crew:
+    """Return who works.
+
+    Args:
+        scheduler: address of a Dask scheduler; empty for this computer.
+        local: processes of this computer; one is this process, without Dask.
+
+    Raises:
+        CohortError: if the address cannot be used, or Dask is not installed; says what to do.
+    """
+    if not scheduler and local == 1:
+        return Here()
+    if local < 1:
+        raise CohortError(sentence("--local {number}: at least 1", number=local))
+    from app.cohort.dask_crew import LocalCrew, RemoteCrew, check_address, distributed
+
+    distributed()
+    if scheduler:
+        check_address(scheduler)
+        return RemoteCrew(scheduler)
+    return LocalCrew(local)
