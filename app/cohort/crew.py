@@ -46,7 +46,7 @@ class Crew(Protocol):
 
 
 class Here:
-    """This process, one part after the other; needs no other program."""
+    """Work in this process, one part after the other; needs no other program."""
 
     workers = 1
 
@@ -79,7 +79,7 @@ def crew_of(scheduler: str = "", local: int = 1) -> Crew:
     if not scheduler and local == 1:
         return Here()
     if local < 1:
-        raise CohortError(sentence("--local {number}: at least 1", number=local))
+        raise CohortError(sentence("--local {processes}: at least 1", processes=local))
     from app.cohort.dask_crew import LocalCrew, RemoteCrew, check_address, distributed
 
     distributed()

@@ -13,6 +13,7 @@ import socket
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from itertools import islice
 from typing import Any, Final, Self
 from urllib.parse import urlsplit
 
@@ -31,6 +32,9 @@ ANSWER_S: Final = 10.0
 
 LOOK_S: Final = 0.2
 """So often is looked for cancelling and for what is done [s]."""
+
+AHEAD: Final = 256
+"""Parts that are handed out at a time; the scheduler need not hold a million."""
 
 DESERTED_S: Final = 60.0
 """Without any worker the work is given up after this [s]."""
@@ -167,38 +171,42 @@ class DaskCrew:
 
         A worker that ends takes nothing with it: its parts are given to another one.
         """
-        dask, expected = distributed(), dict(versions())
-        futures = {
-            self._client.submit(call, do, given, expected, pure=False): place
-            for place, (do, given) in enumerate(todo)
-        }
-        coming = dask.as_completed(list(futures), loop=self._client.loop)
-        looked = time.monotonic()
+        coming = distributed().as_completed(loop=self._client.loop)
+        expected, looked = dict(versions()), time.monotonic()
+        futures: dict[Any, int] = {}
+        rest = enumerate(todo)
         try:
-            while futures:
+            while True:
+                for place, (do, given) in islice(rest, AHEAD - len(futures)):
+                    future = self._client.submit(call, do, given, expected, pure=False)
+                    futures[future] = place
+                    coming.add(future)
+                if not futures:
+                    return
                 progress.check()
                 batch = coming.next_batch(block=False)
                 for future in batch:
-                    place = futures.pop(future)
-                    yield place, self._made(future)
-                if not batch:
-                    time.sleep(LOOK_S)
+                    yield futures.pop(future), self._made(future)
                 if batch or self._has_workers():
                     looked = time.monotonic()
                 elif time.monotonic() - looked > DESERTED_S:
-                    raise CohortError(
-                        sentence(
-                            "the scheduler at {address} has had no worker for {seconds:g} s: "
-                            "{kept}",
-                            address=self._name,
-                            seconds=DESERTED_S,
-                            kept=_KEPT,
-                        )
-                    )
+                    raise self._deserted()
+                if not batch:
+                    time.sleep(LOOK_S)
         except BaseException:
             with suppress(Exception):
                 self._client.cancel(list(futures), force=True)
             raise
+
+    def _deserted(self) -> CohortError:
+        return CohortError(
+            sentence(
+                "the scheduler at {address} has had no worker for {seconds:g} s: {kept}",
+                address=self._name,
+                seconds=DESERTED_S,
+                kept=_KEPT,
+            )
+        )
 
     def _has_workers(self) -> bool:
         """Return whether anybody works; refuses to wait for a scheduler that has gone."""
@@ -287,9 +295,8 @@ class RemoteCrew(DaskCrew):
 
     def _open(self) -> None:
         dask = distributed()
-        encrypted = self._address.startswith("tls://")
+        security = _certificates(dask) if self._address.startswith("tls://") else None
         try:
-            security = dask.Security(require_encryption=True) if encrypted else None
             self._client = dask.Client(
                 self._address, timeout=ANSWER_S, security=security, set_as_default=False
             )
@@ -301,6 +308,33 @@ class RemoteCrew(DaskCrew):
                     reason=words_of(error),
                 )
             ) from error
+
+
+def _certificates(dask: Any) -> Any:
+    """Return how this computer shows itself by TLS, as Dask's configuration says.
+
+    Raises:
+        CohortError: if it names no certificates, or they cannot be read.
+    """
+    security = dask.Security(require_encryption=True)
+    try:
+        there = security.get_connection_args("client").get("ssl_context") is not None
+    except (OSError, ValueError) as error:
+        raise CohortError(
+            sentence(
+                "the certificates of Dask's configuration cannot be used ({reason}): see "
+                "docs/cohort.md",
+                reason=words_of(error),
+            )
+        ) from error
+    if not there:
+        raise CohortError(
+            sentence(
+                "Dask's configuration names no certificates for tls://: set "
+                "DASK_DISTRIBUTED__COMM__TLS__CA_FILE and the client's (docs/cohort.md)"
+            )
+        )
+    return security
 
 
 def words_of(error: BaseException) -> str:

@@ -16,7 +16,7 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 
 from app.cohort.errors import CohortError
 from app.core.configuration import Strict, load
-from app.core.messages import sentence
+from app.core.messages import sentence, sentence_of
 from app.core.units import MILLIMETRE
 from app.exercises.parts import TissueSource
 from app.exercises.schema import Exercise
@@ -114,7 +114,7 @@ class Grid(Strict):
                 for value in values:
                     declaration(effect).checked({parameter: value})
             except SimulationError as error:
-                raise ValueError(str(error)) from error
+                raise ValueError(sentence_of(error)) from error
         return axes
 
     @model_validator(mode="after")
@@ -194,23 +194,23 @@ class Grid(Strict):
             self.tissue or (None,),
             self.breathing_mm or (None,),
             self.assistance or (None,),
-            *(product((axis,), values) for axis, values in self.effects.items()),
         )
-        for device, tissue, breathing, assistance, *effects in scenes:
-            changed = _varied(exercise, device, tissue, breathing, assistance, dict(effects))
-            scene = {
+        axes = [[(axis, value) for value in values] for axis, values in self.effects.items()]
+        for scene, chosen in product(scenes, product(*axes)):
+            changed = _varied(exercise, *scene, dict(chosen))
+            of_scene = {
                 "device": changed.device,
                 "tissue": changed.tissue.value,
-                "breathing_mm": breathing,
+                "breathing_mm": scene[2],
                 "assistance": changed.assistance,
-                **dict(effects),
+                **dict(chosen),
             }
             for error, noise, skill in product(
                 self.registration_error_mm, self.tracking_noise, self.skills
             ):
                 values = {
                     "skill": skill,
-                    **scene,
+                    **of_scene,
                     "registration_error_mm": error,
                     "tracking_noise": noise,
                 }

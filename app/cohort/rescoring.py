@@ -115,9 +115,7 @@ def _rubric(exercise: Exercise) -> dict[str, Any]:
     return exercise.model_dump(mode="json", by_alias=True)
 
 
-def _part(
-    folder: Path, chosen: Sequence[Summary], rubrics: Mapping[str, dict[str, Any]]
-) -> Part:
+def _part(folder: Path, chosen: Sequence[Summary], rubrics: Mapping[str, dict[str, Any]]) -> Part:
     named = {one.exercise_id for one in chosen}
     records = [_listed(folder / f"{one.id}{SUFFIX}", one) for one in chosen]
     own = {name: rubric for name, rubric in sorted(rubrics.items()) if name in named}
@@ -207,9 +205,13 @@ def _scored(path: Path, rubric: Exercise | None) -> Row:
     if state_of(recording) not in {state.value for state in FINAL}:
         return row | {"not_scored": sentence("the attempt was not finished")}
     new = score(recording.trajectory(), rubric.tolerances_for(made.hand), rubric.rules)
-    return row | {f"value_{one.name}": one.value for one in new.rows} | {
-        "total": new.total,
-        "total_sd": new.total_sd,
-        "passed": new.passed,
-        "void_reason": str(new.void_reason),
-    }
+    return (
+        row
+        | {f"value_{one.name}": one.value for one in new.rows}
+        | {
+            "total": new.total,
+            "total_sd": new.total_sd,
+            "passed": new.passed,
+            "void_reason": str(new.void_reason),
+        }
+    )

@@ -138,18 +138,17 @@ def run(
         with crew:
             for place, (made, preparing, working) in crew.results(todo, progress):
                 number = missing[place]
-                cost = Spent(len(made), preparing, working)
+                spent[number] = Spent(len(made), preparing, working)
                 try:
-                    write_part(files[number], columns, made, cost)
+                    write_part(files[number], columns, made, spent[number])
                 except OSError as error:
                     raise _unwritable(folder, error) from error
-                spent[number] = cost
                 done += parts[number].rows
                 tell()
     join_parts(files, columns, out)
-    cost = Cost.of([spent[number] for number in range(len(parts))])
+    whole = Cost.of([spent[number] for number in range(len(parts))])
     seconds = time.monotonic() - begin
-    return Outcome(out, rows, len(parts), before, cost, seconds, crew.workers)
+    return Outcome(out, rows, len(parts), before, whole, seconds, crew.workers)
 
 
 def _make(folder: Path) -> None:

@@ -68,12 +68,29 @@ def sweep(grid: Grid, out: Path, crew: Crew, progress: Progress | None = None) -
     """
     exercise = load_exercise(grid.exercise)
     names = tuple(grid.effects)
-    parts = [
-        Part(_attempts, _given(cell, names, seeds), len(seeds))
-        for cell in grid.cells(exercise)
-        for seeds in _blocks(grid.every_seed)
-    ]
+    files = _files(exercise)
+    parts, document, of = [], {}, None
+    for cell in grid.cells(exercise):
+        if cell.exercise is not of:  # one document for all cells that share it
+            of, document = cell.exercise, cell.exercise.model_dump(mode="json", by_alias=True)
+        for seeds in _blocks(grid.every_seed):
+            parts.append(Part(_attempts, _given(cell, document, files, seeds), len(seeds)))
     return run(parts, columns(names), out, crew, progress)
+
+
+def _files(exercise: Exercise) -> list[list[str]]:
+    """Name the files that the patient is made of, with size and digest or time; none of a phantom.
+
+    A CT is told by the sizes and times of its files: reading it all would take longer than a part.
+    """
+    places = [part.file for part in exercise.structures]
+    places += [exercise.ct.folder] if exercise.ct.folder is not None else []
+    found = []
+    for place in (place for place in places if place.exists()):  # reading says what is missing
+        for file in sorted(Path(place).rglob("*")) if Path(place).is_dir() else [Path(place)]:
+            stat = file.stat()
+            found.append([str(file), str(stat.st_size), str(stat.st_mtime_ns)])
+    return found
 
 
 def columns(effects: tuple[str, ...] = ()) -> Columns:
@@ -105,15 +122,17 @@ def _blocks(seeds: tuple[int, ...]) -> list[tuple[int, ...]]:
     return [seeds[begin : begin + SEEDS] for begin in range(0, len(seeds), SEEDS)]
 
 
-def _given(cell: Cell, names: tuple[str, ...], seeds: tuple[int, ...]) -> dict[str, Any]:
+def _given(
+    cell: Cell, document: dict[str, Any], files: list[list[str]], seeds: tuple[int, ...]
+) -> dict[str, Any]:
     return {
-        "exercise": cell.exercise.model_dump(mode="json", by_alias=True),
+        "exercise": document,
+        "files": files,
         "skill": cell.skill,
         "script": cell.script.value,
         "registration_error": cell.registration_error,
         "tracking_noise": cell.tracking_noise,
         "values": dict(cell.values),
-        "columns": list(names),
         "seeds": list(seeds),
     }
 
@@ -169,8 +188,12 @@ def _row(given: dict[str, Any], seed: int, trials: Trials) -> Row:
     if score is None:
         return row | {"void_reason": UNJUDGED}
     measured = {f"value_{one.name}": one.value for one in score.rows}
-    return row | measured | {
-        "total": score.total,
-        "total_sd": score.total_sd,
-        "void_reason": str(score.void_reason),
-    }
+    return (
+        row
+        | measured
+        | {
+            "total": score.total,
+            "total_sd": score.total_sd,
+            "void_reason": str(score.void_reason),
+        }
+    )

@@ -82,9 +82,7 @@ def join_parts(parts: Iterable[Path], columns: Columns, out: Path) -> None:
         write_atomically(out, _bytes(whole.combine_chunks(), {_NOTE: DISCLAIMER.encode()}))
     except OSError as error:
         raise CohortError(
-            sentence(
-                "{file} cannot be written: {reason}", file=out, reason=error.strerror or error
-            )
+            sentence("{file} cannot be written: {reason}", file=out, reason=error.strerror or error)
         ) from error
 
 

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 
 RANK = 215
 
-Out = Annotated[
-    Path, typer.Option("--out", metavar="FILE", help="Table to write, .parquet.")
-]
+Out = Annotated[Path, typer.Option("--out", metavar="FILE", help="Table to write, .parquet.")]
 Scheduler = Annotated[
     str,
     typer.Option(
@@ -154,7 +152,9 @@ def sweep(
         "effects": _axes(effects or []),
     }
     chosen = _grid(Grid, exercise, grid, given)
-    return _answer(with_progress(lambda progress: work(chosen, out, crew, progress)), attempts, price)
+    return _answer(
+        with_progress(lambda progress: work(chosen, out, crew, progress)), attempts, price
+    )
 
 
 def _processes(scheduler: str, local: int | None) -> int:
@@ -187,9 +187,9 @@ def _axes(effects: list[str]) -> dict[str, tuple[float, ...]]:
         except ValueError as error:
             raise ConfigurationError(
                 sentence(
-                    "--effect {text}: write NAME.PARAMETER=VALUE,VALUE, as "
+                    "--effect {option}: write NAME.PARAMETER=VALUE,VALUE, as "
                     "shaft_friction.viscous=1,2",
-                    text=text,
+                    option=text,
                 )
             ) from error
     return axes
