@@ -11,6 +11,7 @@ import ipaddress
 import logging
 import socket
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from itertools import islice
@@ -52,7 +53,7 @@ def distributed() -> Any:
         import distributed
     except ImportError as error:
         raise not_installed(
-            CohortError, "distributed (Dask)", EXTRA, sentence("use --local 1, which needs none")
+            CohortError, "distributed", EXTRA, sentence("use --local 1, which needs none")
         ) from error
     return distributed
 
@@ -94,7 +95,7 @@ def _is_loopback(host: str) -> bool:
     return bool(found) and all(ipaddress.ip_address(str(one)).is_loopback for one in found)
 
 
-class DaskCrew:
+class DaskCrew(ABC):
     """What both have: a client, and how parts are handed out and come back.
 
     Attributes:
@@ -106,9 +107,9 @@ class DaskCrew:
         self._client: Any = None
         self._name = name
 
+    @abstractmethod
     def _open(self) -> None:
         """Connect; sets the client."""
-        raise NotImplementedError
 
     def __enter__(self) -> Self:
         """Connect, and look whether everybody has this Acus.
@@ -296,7 +297,10 @@ class RemoteCrew(DaskCrew):
     def _open(self) -> None:
         dask = distributed()
         security = _certificates(dask) if self._address.startswith("tls://") else None
+        parts = urlsplit(self._address)
         try:
+            # Refused at once; Dask would try until its time is over.
+            socket.create_connection((parts.hostname or "", parts.port or 0), ANSWER_S).close()
             self._client = dask.Client(
                 self._address, timeout=ANSWER_S, security=security, set_as_default=False
             )

@@ -78,7 +78,7 @@ class Grid(Strict):
     seeds: Annotated[int, Field(ge=1)] | tuple[Annotated[int, Field(ge=0)], ...] = 20
     devices: tuple[str, ...] = ()
     registration_error_mm: tuple[Millimetres, ...] = (0.0,)
-    tracking_noise: tuple[Annotated[float, Field(ge=0.1, le=20.0)], ...] = (1.0,)
+    tracking_noise: tuple[Annotated[float, Field(ge=0.1, le=1000.0)], ...] = (1.0,)
     breathing_mm: tuple[Millimetres, ...] = ()
     tissue: tuple[TissueSource, ...] = ()
     assistance: tuple[Annotated[float, Field(ge=-1.0, le=1.0)], ...] = ()
@@ -108,7 +108,7 @@ class Grid(Strict):
             effect, _, parameter = axis.partition(".")
             if not parameter:
                 raise ValueError(
-                    sentence("{axis!r}: write EFFECT.PARAMETER, as puncture.rate", axis=axis)
+                    sentence("{axis!r}: write EFFECT.PARAMETER, as puncture.force_scale", axis=axis)
                 )
             try:
                 for value in values:
@@ -126,7 +126,7 @@ class Grid(Strict):
         for name, values in axes.items():
             if isinstance(values, tuple) and len(set(values)) < len(values):
                 raise ValueError(sentence("{field}: a value stands there twice", field=name))
-        if not self.every_seed:
+        if self.seeds == ():
             raise ValueError(sentence("{field}: give one value at least", field="seeds"))
         empty = [axis for axis, values in self.effects.items() if not values]
         if empty:
@@ -161,11 +161,9 @@ class Grid(Strict):
             return cls(**{name: value for name, value in values.items() if value not in (None, ())})
         except ValidationError as error:
             first = error.errors()[0]
-            where = ".".join(map(str, first["loc"]))
+            where = ".".join(map(str, first["loc"])) or "grid"
             reason = first["msg"].removeprefix("Value error, ")
-            raise CohortError(
-                sentence("{field}: {reason}", field=where, reason=reason) if where else reason
-            ) from error
+            raise CohortError(sentence("{field}: {reason}", field=where, reason=reason)) from error
 
     @property
     def every_seed(self) -> tuple[int, ...]:
@@ -175,7 +173,8 @@ class Grid(Strict):
     @property
     def attempts(self) -> int:
         """Return how many attempts there are."""
-        count = len(self.every_seed) * len(self.skills)
+        count = self.seeds if isinstance(self.seeds, int) else len(self.seeds)
+        count *= len(self.skills)
         count *= len(self.registration_error_mm) * len(self.tracking_noise)
         for axis in (self.devices, self.breathing_mm, self.tissue, self.assistance):
             count *= len(axis) or 1

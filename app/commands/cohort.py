@@ -188,7 +188,7 @@ def _axes(effects: list[str]) -> dict[str, tuple[float, ...]]:
             raise ConfigurationError(
                 sentence(
                     "--effect {option}: write NAME.PARAMETER=VALUE,VALUE, as "
-                    "shaft_friction.viscous=1,2",
+                    "puncture.force_scale=1,1.5",
                     option=text,
                 )
             ) from error
