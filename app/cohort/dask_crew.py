@@ -117,8 +117,9 @@ class DaskCrew(ABC):
         Raises:
             CohortError: if nobody answers or works, or somebody has another one.
         """
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it says is said here
+        distributed()
         try:
+            _silence()
             self._open()
             self._look()
         except BaseException:
@@ -339,6 +340,13 @@ def _certificates(dask: Any) -> Any:
             )
         )
     return security
+
+
+def _silence() -> None:
+    """Let Dask print nothing: what went wrong is said in one line."""
+    for name in list(logging.root.manager.loggerDict):
+        if name.partition(".")[0] == "distributed":  # each has a level of its own
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
 def words_of(error: BaseException) -> str:
