@@ -6,15 +6,24 @@ table is made of the parts in the order of the input, and is the same to the bit
 workers. What does the parts is a *crew*: this process, processes of this computer, or the workers
 of a Dask scheduler (extra `cohort`). Without this folder the program has one command less.
 
-The door: `rescore`, `sweep`, `Grid`, and `crew_of`, which says who works.
+The door: `rescore`, `sweep`, `SweepGrid`, and `crew_of`, which says who works.
 """
 
-from app.cohort.cost import Cost
-from app.cohort.crew import Crew, crew_of
+from app.cohort.cost import AttemptCost
+from app.cohort.crew import crew_of
 from app.cohort.errors import CohortError
-from app.cohort.grid import Grid
+from app.cohort.grid import SweepGrid
 from app.cohort.rescoring import rescore
-from app.cohort.running import Outcome
+from app.cohort.running import Crew, RunOutcome
 from app.cohort.sweeping import sweep
 
-__all__ = ["CohortError", "Cost", "Crew", "Grid", "Outcome", "crew_of", "rescore", "sweep"]
+__all__ = [
+    "AttemptCost",
+    "CohortError",
+    "Crew",
+    "RunOutcome",
+    "SweepGrid",
+    "crew_of",
+    "rescore",
+    "sweep",
+]

@@ -27,8 +27,8 @@ class Spent:
 
 
 @dataclass(frozen=True, slots=True)
-class Cost:
-    """Cost of an attempt, and a model: processes x preparing + attempts x working.
+class AttemptCost:
+    """AttemptCost of an attempt, and a model: processes x preparing + attempts x working.
 
     Time of processors is counted, not of clocks: a busy computer takes longer and costs the same.
 
@@ -43,7 +43,7 @@ class Cost:
     preparing: float
 
     @classmethod
-    def of(cls, spent: Sequence[Spent]) -> Cost:
+    def of(cls, spent: Sequence[Spent]) -> AttemptCost:
         """Sum up what parts took: the mean over attempts, its error from part to part."""
         counted = [part for part in spent if part.attempts]
         attempts = sum(part.attempts for part in counted)

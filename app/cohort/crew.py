@@ -3,46 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from types import TracebackType
-from typing import Any, Protocol, Self
+from typing import Any, Self
 
 from app.cohort.errors import CohortError
-from app.cohort.running import Do
-from app.cohort.table import Row
+from app.cohort.running import Crew, Do, Made
 from app.core.messages import sentence
 from app.core.progress import Progress
-
-Made = tuple[list[Row], float, float]
-"""Rows of a part, and what preparing and working took of a processor [s]."""
-
-
-class Crew(Protocol):
-    """Does parts, in any order. It is opened by `with` only where there is something to do."""
-
-    @property
-    def workers(self) -> int:
-        """Return how many processes work."""
-
-    def __enter__(self) -> Self:
-        """Begin."""
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Let everybody go."""
-
-    def results(
-        self, todo: Sequence[tuple[Do, dict[str, Any]]], progress: Progress
-    ) -> Iterator[tuple[int, Made]]:
-        """Do the parts; yield the place of each in the list, and what it made, as they are done.
-
-        Raises:
-            CohortError: if the crew cannot go on.
-            Cancelled: if `progress` was cancelled.
-        """
 
 
 class Here:

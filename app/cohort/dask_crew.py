@@ -18,9 +18,8 @@ from itertools import islice
 from typing import Any, Final, Self
 from urllib.parse import urlsplit
 
-from app.cohort.crew import Made
 from app.cohort.errors import CohortError
-from app.cohort.running import Do, call
+from app.cohort.running import Do, Made, call
 from app.cohort.table import EXTRA
 from app.cohort.versions import differences, versions
 from app.core.errors import AcusError

@@ -35,7 +35,7 @@ Millimetres = Annotated[float, Field(ge=0.0, le=50.0)]
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class SweepCell:
     """One combination of the axes.
 
     Attributes:
@@ -56,7 +56,7 @@ class Cell:
     values: Mapping[str, Any]
 
 
-class Grid(Strict):
+class SweepGrid(Strict):
     """What is varied, as a YAML file or the command line says it.
 
     Attributes:
@@ -182,7 +182,7 @@ class Grid(Strict):
             count *= len(values)
         return count
 
-    def cells(self, exercise: Exercise) -> Iterator[Cell]:
+    def cells(self, exercise: Exercise) -> Iterator[SweepCell]:
         """Yield every combination for the exercise that was read, skills fastest.
 
         Raises:
@@ -213,7 +213,7 @@ class Grid(Strict):
                     "registration_error_mm": error,
                     "tracking_noise": noise,
                 }
-                yield Cell(changed, skill, self.script, error * MILLIMETRE, noise, values)
+                yield SweepCell(changed, skill, self.script, error * MILLIMETRE, noise, values)
 
 
 def _varied(

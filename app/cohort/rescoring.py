@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from app.cohort.errors import CohortError
-from app.cohort.running import Outcome, Part, run
+from app.cohort.running import Crew, Made, RunOutcome, WorkPart, run
 from app.cohort.table import Columns, Row
 from app.core.errors import AcusError
 from app.core.messages import sentence
@@ -29,7 +29,6 @@ from app.session.store import SUFFIX, list_sessions
 from app.session.verify import conditions, state_of, written_score
 
 if TYPE_CHECKING:
-    from app.cohort.crew import Crew
     from app.session.summary import Summary
 
 RECORDS: Final = 32
@@ -67,7 +66,7 @@ def rescore(
     crew: Crew,
     exercise: Exercise | None = None,
     progress: Progress | None = None,
-) -> Outcome:
+) -> RunOutcome:
     """Score the attempts of a folder anew and write their table, the oldest first.
 
     Attempts that cannot be scored have a row that says why.
@@ -115,11 +114,13 @@ def _rubric(exercise: Exercise) -> dict[str, Any]:
     return exercise.model_dump(mode="json", by_alias=True)
 
 
-def _part(folder: Path, chosen: Sequence[Summary], rubrics: Mapping[str, dict[str, Any]]) -> Part:
+def _part(
+    folder: Path, chosen: Sequence[Summary], rubrics: Mapping[str, dict[str, Any]]
+) -> WorkPart:
     named = {one.exercise_id for one in chosen}
     records = [_listed(folder / f"{one.id}{SUFFIX}", one) for one in chosen]
     own = {name: rubric for name, rubric in sorted(rubrics.items()) if name in named}
-    return Part(_scores, {"records": records, "rubrics": own}, len(records))
+    return WorkPart(_scores, {"records": records, "rubrics": own}, len(records))
 
 
 def _listed(path: Path, summary: Summary) -> dict[str, Any]:
@@ -142,7 +143,7 @@ def _listed(path: Path, summary: Summary) -> dict[str, Any]:
     }
 
 
-def _scores(given: dict[str, Any]) -> tuple[list[Row], float, float]:
+def _scores(given: dict[str, Any]) -> Made:
     """Score some records."""
     begin = time.process_time()
     rubrics = {

@@ -12,30 +12,60 @@ import hashlib
 import json
 import platform
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from types import TracebackType
+from typing import Any, Final, Protocol, Self
 
-from app.cohort.cost import Cost, Spent
+from app.cohort.cost import AttemptCost, Spent
 from app.cohort.errors import CohortError
 from app.cohort.table import Columns, Row, arrow, join_parts, read_part, write_part
 from app.cohort.versions import differences, versions
 from app.core.messages import sentence
 from app.core.progress import Progress
 
-if TYPE_CHECKING:
-    from app.cohort.crew import Crew
-
 FORM: Final = 1
 """Of the parts: it grows when their rows get another meaning."""
 
-Do = Callable[[dict[str, Any]], "tuple[list[Row], float, float]"]
-"""Does a part; returns its rows, and what preparing and working took of a processor [s]."""
+Made = tuple[list[Row], float, float]
+"""Rows of a part, and what preparing and working took of a processor [s]."""
+
+Do = Callable[[dict[str, Any]], Made]
+"""Does a part."""
+
+
+class Crew(Protocol):
+    """Does parts, in any order. It is opened by `with` only where there is something to do."""
+
+    @property
+    def workers(self) -> int:
+        """Return how many processes work."""
+
+    def __enter__(self) -> Self:
+        """Begin."""
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Let everybody go."""
+
+    def results(
+        self, todo: Sequence[tuple[Do, dict[str, Any]]], progress: Progress
+    ) -> Iterator[tuple[int, Made]]:
+        """Do the parts; yield the place of each in the list, and what it made, as they are done.
+
+        Raises:
+            CohortError: if the crew cannot go on.
+            Cancelled: if `progress` was cancelled.
+        """
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class WorkPart:
     """One piece of work.
 
     Attributes:
@@ -57,7 +87,7 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class RunOutcome:
     """What a run came to.
 
     Attributes:
@@ -74,12 +104,12 @@ class Outcome:
     rows: int
     parts: int
     done_before: int
-    cost: Cost
+    cost: AttemptCost
     seconds: float
     workers: int
 
 
-def call(do: Do, given: dict[str, Any], expected: dict[str, str]) -> tuple[list[Row], float, float]:
+def call(do: Do, given: dict[str, Any], expected: dict[str, str]) -> Made:
     """Do a part on a worker that has the versions that are expected.
 
     Raises:
@@ -97,12 +127,12 @@ def call(do: Do, given: dict[str, Any], expected: dict[str, str]) -> tuple[list[
 
 
 def run(
-    parts: Sequence[Part],
+    parts: Sequence[WorkPart],
     columns: Columns,
     out: Path,
     crew: Crew,
     progress: Progress | None = None,
-) -> Outcome:
+) -> RunOutcome:
     """Do the parts that are not there yet, and write the table of all.
 
     What is done stays done, whatever ends the rest: `OUT.parts` holds it.
@@ -146,9 +176,9 @@ def run(
                 done += parts[number].rows
                 tell()
     join_parts(files, columns, out)
-    whole = Cost.of([spent[number] for number in range(len(parts))])
+    whole = AttemptCost.of([spent[number] for number in range(len(parts))])
     seconds = time.monotonic() - begin
-    return Outcome(out, rows, len(parts), before, whole, seconds, crew.workers)
+    return RunOutcome(out, rows, len(parts), before, whole, seconds, crew.workers)
 
 
 def _make(folder: Path) -> None:

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from app.cohort.grid import Cell, Grid
-from app.cohort.running import Outcome, Part, run
+from app.cohort.grid import SweepCell, SweepGrid
+from app.cohort.running import Crew, Made, RunOutcome, WorkPart, run
 from app.cohort.table import Columns, Row
 from app.compose.skill_scores import Resolved, risks_of
 from app.compose.trial import Trials
@@ -28,7 +28,6 @@ from app.scoring.metrics import available
 from app.simulation.hands import Script
 
 if TYPE_CHECKING:
-    from app.cohort.crew import Crew
     from app.planning.placement import PlacedPlan
     from app.session.risks import Risk
 
@@ -58,7 +57,7 @@ _THEN: Final[Columns] = {
 }
 
 
-def sweep(grid: Grid, out: Path, crew: Crew, progress: Progress | None = None) -> Outcome:
+def sweep(grid: SweepGrid, out: Path, crew: Crew, progress: Progress | None = None) -> RunOutcome:
     """Do every attempt of a grid and write their table.
 
     Raises:
@@ -74,7 +73,7 @@ def sweep(grid: Grid, out: Path, crew: Crew, progress: Progress | None = None) -
         if cell.exercise is not of:  # one document for all cells that share it
             of, document = cell.exercise, cell.exercise.model_dump(mode="json", by_alias=True)
         for seeds in _blocks(grid.every_seed):
-            parts.append(Part(_attempts, _given(cell, document, files, seeds), len(seeds)))
+            parts.append(WorkPart(_attempts, _given(cell, document, files, seeds), len(seeds)))
     return run(parts, columns(names), out, crew, progress)
 
 
@@ -123,7 +122,7 @@ def _blocks(seeds: tuple[int, ...]) -> list[tuple[int, ...]]:
 
 
 def _given(
-    cell: Cell, document: dict[str, Any], files: list[list[str]], seeds: tuple[int, ...]
+    cell: SweepCell, document: dict[str, Any], files: list[list[str]], seeds: tuple[int, ...]
 ) -> dict[str, Any]:
     return {
         "exercise": document,
@@ -149,7 +148,7 @@ def _trials(document: str, script: str, noise: float) -> Trials:
     return Trials(on.exercise, on.placed, risks, on.tissues, Script(script), noise=noise)
 
 
-def _attempts(given: dict[str, Any]) -> tuple[list[Row], float, float]:
+def _attempts(given: dict[str, Any]) -> Made:
     """Do some seeds of a cell."""
     document = json.dumps(given["exercise"])  # in its order: scores are sums in it
     error, noise = given["registration_error"], given["tracking_noise"]

@@ -13,7 +13,7 @@ from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
-    from app.cohort import Grid, Outcome
+    from app.cohort import RunOutcome, SweepGrid
 
 RANK = 215
 
@@ -135,7 +135,7 @@ def sweep(
 
     Nothing is recorded. What is done is kept beside FILE: the same command goes on there.
     """
-    from app.cohort import Grid, crew_of
+    from app.cohort import SweepGrid, crew_of
     from app.cohort import sweep as work
     from app.commands.calibrate_parts import with_progress
 
@@ -151,7 +151,7 @@ def sweep(
         "tissue": tuple(tissue or ()),
         "effects": _axes(effects or []),
     }
-    chosen = _grid(Grid, exercise, grid, given)
+    chosen = _grid(SweepGrid, exercise, grid, given)
     return _answer(
         with_progress(lambda progress: work(chosen, out, crew, progress)), attempts, price
     )
@@ -165,7 +165,9 @@ def _processes(scheduler: str, local: int | None) -> int:
     return local or 1
 
 
-def _grid(kind: "type[Grid]", exercise: str, file: Path | None, given: dict[str, Any]) -> "Grid":
+def _grid(
+    kind: "type[SweepGrid]", exercise: str, file: Path | None, given: dict[str, Any]
+) -> "SweepGrid":
     named = [name for name, values in given.items() if values]
     if file is not None and (exercise or named):
         raise ConfigurationError(
@@ -195,7 +197,7 @@ def _axes(effects: list[str]) -> dict[str, tuple[float, ...]]:
     return axes
 
 
-def _answer(done: "Outcome", attempts: float, price: float | None) -> Answer:
+def _answer(done: "RunOutcome", attempts: float, price: float | None) -> Answer:
     cost = done.cost.document(attempts, max(done.workers, 1), price)
     facts = {
         "out": str(done.out),

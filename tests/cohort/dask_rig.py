@@ -20,7 +20,7 @@ def acus(*words, folder, **more):
     """Run a command; return its code, and what it wrote on both streams."""
     done = subprocess.run(
         [sys.executable, "-P", "-m", "acus", *map(str, words)],
-        cwd=folder, env=environment(**more), capture_output=True, text=True, timeout=200,
+        cwd=folder, env=environment(**more), capture_output=True, text=True, timeout=400,
     )  # fmt: skip
     return done.returncode, done.stdout, done.stderr
 
@@ -68,6 +68,14 @@ class Dask:
         self._programs.append(program)
         return program
 
+    def has_workers(self, number, seconds=240.0):
+        """Wait until the scheduler knows so many workers; asked by Dask's own client apart."""
+        ask = (
+            f"import distributed; c = distributed.Client({self.address!r}); "
+            f"c.wait_for_workers({number}, timeout={seconds})"
+        )
+        subprocess.run([sys.executable, "-P", "-c", ask], check=True, capture_output=True)
+
     def _answers(self):
         with suppress(OSError), socket.create_connection(("127.0.0.1", self.port), 1.0):
             return True
@@ -95,7 +103,7 @@ def parts(folder):
     return sorted(folder.glob("*.parts/[0-9a-f]*.parquet"))
 
 
-def wait_for_parts(folder, number, program, seconds=120.0):
+def wait_for_parts(folder, number, program, seconds=400.0):
     """Wait until so many parts are there, or the program has ended."""
     end = time.monotonic() + seconds
     while len(parts(folder)) < number and program.poll() is None:

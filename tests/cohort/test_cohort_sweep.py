@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow.parquet as parquet
 import pytest
 
-from app.cohort import CohortError, Grid, crew_of, sweep
+from app.cohort import CohortError, SweepGrid, crew_of, sweep
 from app.cohort.sweeping import SEEDS, displaced
 from app.compose.skill_scores import Resolved, skill_outcomes
 from app.compose.trial import Trials
@@ -37,7 +37,7 @@ def rows(file):
 
 
 def grid(file, **axes):
-    return Grid.given(exercise=str(file), **{"skills": ("expert",), "seeds": 1, **axes})
+    return SweepGrid.given(exercise=str(file), **{"skills": ("expert",), "seeds": 1, **axes})
 
 
 def test_a_sweep_scores_each_seed_as_a_trial_of_the_exercise_does(exercise_file, tmp_path):
@@ -130,7 +130,7 @@ def test_breathing_moves_the_target_and_none_lets_it_stand(exercise_file):
 
 
 def test_the_cells_of_a_grid_are_every_combination_once():
-    wanted = Grid.given(
+    wanted = SweepGrid.given(
         exercise=EXERCISE,
         skills=("novice", "expert"),
         devices=("icube", "haply-2diy"),
@@ -165,13 +165,13 @@ def test_the_cells_of_a_grid_are_every_combination_once():
 )
 def test_a_grid_that_cannot_be_is_refused_in_one_line(axes, reason):
     with pytest.raises(CohortError) as refused:
-        Grid.given(exercise=EXERCISE, **axes)
+        SweepGrid.given(exercise=EXERCISE, **axes)
     assert reason in str(refused.value)
     assert "\n" not in str(refused.value)
 
 
 def test_an_axis_of_an_effect_that_the_exercise_does_not_ask_for_is_refused(tmp_path):
-    wanted = Grid.given(exercise=EXERCISE, effects={"breathing.period": (3.0, 4.0)})
+    wanted = SweepGrid.given(exercise=EXERCISE, effects={"breathing.period": (3.0, 4.0)})
     with pytest.raises(CohortError, match="does not ask for the effect breathing"):
         sweep(wanted, tmp_path / "a.parquet", crew_of())
 
