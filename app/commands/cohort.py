@@ -67,9 +67,10 @@ def rescore(
     attempts: Attempts = 1e6,
     price: Price = None,
 ) -> Answer:
-    """Score stored attempts anew, by what exercises say now (instructor).
+    """Score stored attempts anew (instructor).
 
-    Nothing stored is changed. What is done is kept beside FILE: the same command goes on there.
+    By the bands and rules that their exercises have now; nothing stored is changed. What is done
+    is kept beside FILE: the same command goes on there.
     """
     from app.cohort import crew_of
     from app.cohort import rescore as work
@@ -131,9 +132,10 @@ def sweep(
     attempts: Attempts = 1e6,
     price: Price = None,
 ) -> Answer:
-    """Let scripts do an exercise over a grid, in virtual time (instructor).
+    """Try an exercise over a grid of conditions (instructor).
 
-    Nothing is recorded. What is done is kept beside FILE: the same command goes on there.
+    Scripts do it in virtual time, and nothing is recorded. What is done is kept beside FILE: the
+    same command goes on there.
     """
     from app.cohort import SweepGrid, crew_of
     from app.cohort import sweep as work
