@@ -96,6 +96,7 @@ PARTS: Final[Mapping[str, Part]] = {
         ),
         words=("pacs",),
     ),
+    "cohort": Part(("app/cohort", "app/commands/cohort.py", "docs/cohort.md", "tests/cohort")),
     "author": Part(
         ("app/views/author", "docs/authoring.md", "tests/views/test_views_author.py"),
         words=("AuthorFeature", r"authoring\.md"),

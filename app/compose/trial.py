@@ -184,6 +184,8 @@ class Trials:
         risks: structures that the needle has to keep away from.
         tissues: field of the patient that tells what the needle met.
         script: how the trainees behave: as people do, or as in a demonstration.
+        aimed: plan as robot and hand have it, where the registration errs; None for `placed`.
+        noise: factor on the noise of the cameras.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
@@ -196,8 +198,12 @@ class Trials:
         risks: tuple[Risk, ...] = (),
         tissues: TissueField | None = None,
         script: Script = Script.HAND,
+        aimed: PlacedPlan | None = None,
+        noise: float = 1.0,
     ) -> None:
         self._script = script
+        self._aimed = placed if aimed is None else aimed
+        self._only_here = aimed is not None or noise != 1.0
         self._exercise, self._placed, self._risks = exercise, placed, risks
         self._tissues = tissues
         self._profile = device_of(exercise)
@@ -212,21 +218,27 @@ class Trials:
         self._stages, self._write = table.compute, table.write
         self._fulcrum = self._profile.fulcrum
         rig = load_rig(exercise.rig)
-        self._spoiled = Spoiled.by(pictures_of(exercise, self._profile), rig.blur_px)
+        spoiled = Spoiled.by(pictures_of(exercise, self._profile), rig.blur_px)
+        self._spoiled = replace(spoiled, noise=noise * spoiled.noise)
         self._cameras, self._spread = self._measurements(rig)
 
     def score(self, skill: str, seed: int) -> Trial:
         """Let a scripted trainee of `simulation.skills` do one attempt; the same for one seed.
 
+        What only a trainer can judge has no score where the registration errs or the cameras' noise
+        is another: a trainer knows nothing of either.
+
         Raises:
             AcusError: for an unknown skill.
         """
         played = named(find_skill(skill).name, self._script)
-        trainee = trainee_of(self._exercise, self._placed, played, seed)
+        trainee = trainee_of(self._exercise, self._aimed, played, seed)
         rows, begin = self._rows(trainee, seed)
         trial = self._judged(rows, begin, self._exercise.assistance)
         if trial is not None:
             return trial
+        if self._only_here:
+            return Trial(None, float(rows[-1, sv.TIME]) - begin)
         result = self._whole(skill, seed)
         return Trial(result.score, result.duration)
 
@@ -303,7 +315,7 @@ class Trials:
             force_cap=profile.limits.hand_force,
         )
         inputs = LoopInputs(loop.inbox)
-        inputs.prepare(self._placed, self._dial(hand))
+        inputs.prepare(self._aimed, self._dial(hand))
         loop.open()
         try:
             inputs.heartbeat(BEGIN)

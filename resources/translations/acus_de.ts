@@ -20802,5 +20802,181 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>Not taken: {what}</source>
             <translation type="unfinished">Nicht übernommen: {what}</translation>
         </message>
+        <message>
+            <source>--local {processes}: at least 1</source>
+            <translation type="unfinished">--local {processes}: mindestens 1</translation>
+        </message>
+        <message>
+            <source>what is done is kept: the same command goes on from there</source>
+            <translation type="unfinished">was fertig ist, bleibt: derselbe Befehl macht dort weiter</translation>
+        </message>
+        <message>
+            <source>use --local 1, which needs none</source>
+            <translation type="unfinished">--local 1 benutzen, das keines braucht</translation>
+        </message>
+        <message>
+            <source>{address!r} is no address of a scheduler: write tcp://127.0.0.1:8786, or tls://HOST:8786</source>
+            <translation type="unfinished">{address!r} ist keine Adresse eines Schedulers: tcp://127.0.0.1:8786 oder tls://RECHNER:8786 schreiben</translation>
+        </message>
+        <message>
+            <source>{address} is not on this computer and not by TLS: Dask runs what it is sent, whoever sends it; use tls:// with certificates (docs/cohort.md)</source>
+            <translation type="unfinished">{address} ist nicht auf diesem Rechner und nicht über TLS: Dask führt aus, was ihm geschickt wird, von wem auch immer; tls:// mit Zertifikaten benutzen (docs/cohort.md)</translation>
+        </message>
+        <message>
+            <source>the scheduler at {address} has no worker: start some (docs/cohort.md)</source>
+            <translation type="unfinished">der Scheduler {address} hat keinen Worker: welche starten (docs/cohort.md)</translation>
+        </message>
+        <message>
+            <source>worker {address} has no Acus of this kind ({reason}): install the same there as here</source>
+            <translation type="unfinished">der Worker {address} hat kein solches Acus ({reason}): dort dasselbe installieren wie hier</translation>
+        </message>
+        <message>
+            <source>worker {address} has another Acus: {differences}; install the same there as here</source>
+            <translation type="unfinished">der Worker {address} hat ein anderes Acus: {differences}; dort dasselbe installieren wie hier</translation>
+        </message>
+        <message>
+            <source>the scheduler at {address} has had no worker for {seconds:g} s: {kept}</source>
+            <translation type="unfinished">der Scheduler {address} hat seit {seconds:g} s keinen Worker: {kept}</translation>
+        </message>
+        <message>
+            <source>several workers ended over the same part (out of memory?): {kept}</source>
+            <translation type="unfinished">mehrere Worker endeten über demselben Teil (zu wenig Speicher?): {kept}</translation>
+        </message>
+        <message>
+            <source>the scheduler at {address} is gone: {kept}</source>
+            <translation type="unfinished">der Scheduler {address} ist nicht mehr da: {kept}</translation>
+        </message>
+        <message>
+            <source>this computer</source>
+            <translation type="unfinished">dieser Rechner</translation>
+        </message>
+        <message>
+            <source>no scheduler answers at {address} ({reason}): start one, or use --local</source>
+            <translation type="unfinished">bei {address} antwortet kein Scheduler ({reason}): einen starten oder --local benutzen</translation>
+        </message>
+        <message>
+            <source>the certificates of Dask's configuration cannot be used ({reason}): see docs/cohort.md</source>
+            <translation type="unfinished">die Zertifikate der Dask-Konfiguration sind nicht zu benutzen ({reason}): siehe docs/cohort.md</translation>
+        </message>
+        <message>
+            <source>Dask's configuration names no certificates for tls://: set DASK_DISTRIBUTED__COMM__TLS__CA_FILE and the client's (docs/cohort.md)</source>
+            <translation type="unfinished">die Dask-Konfiguration nennt keine Zertifikate für tls://: DASK_DISTRIBUTED__COMM__TLS__CA_FILE und die des Clients setzen (docs/cohort.md)</translation>
+        </message>
+        <message>
+            <source>no skill {name!r}; there are {skills}</source>
+            <translation type="unfinished">kein Können {name!r}; es gibt {skills}</translation>
+        </message>
+        <message>
+            <source>{axis!r}: write EFFECT.PARAMETER, as puncture.force_scale</source>
+            <translation type="unfinished">{axis!r}: EFFEKT.PARAMETER schreiben, wie puncture.force_scale</translation>
+        </message>
+        <message>
+            <source>{field}: give one value at least</source>
+            <translation type="unfinished">{field}: mindestens einen Wert angeben</translation>
+        </message>
+        <message>
+            <source>{field}: a value stands there twice</source>
+            <translation type="unfinished">{field}: ein Wert steht zweimal da</translation>
+        </message>
+        <message>
+            <source>the grid has {count} attempts; at most {most} are done at once</source>
+            <translation type="unfinished">das Gitter hat {count} Versuche; höchstens {most} werden auf einmal gemacht</translation>
+        </message>
+        <message>
+            <source>{field}: {reason}</source>
+            <translation type="unfinished">{field}: {reason}</translation>
+        </message>
+        <message>
+            <source>exercise {exercise} does not ask for the effect {effect}: {axis} would change nothing</source>
+            <translation type="unfinished">die Übung {exercise} verlangt den Effekt {effect} nicht: {axis} würde nichts ändern</translation>
+        </message>
+        <message>
+            <source>exercise {exercise}: {reason}</source>
+            <translation type="unfinished">Übung {exercise}: {reason}</translation>
+        </message>
+        <message>
+            <source> of exercise {id}</source>
+            <translation type="unfinished"> der Übung {id}</translation>
+        </message>
+        <message>
+            <source>there is no attempt{whose} in {folder}</source>
+            <translation type="unfinished">es gibt keinen Versuch{whose} in {folder}</translation>
+        </message>
+        <message>
+            <source>the record cannot be read</source>
+            <translation type="unfinished">die Aufzeichnung ist nicht zu lesen</translation>
+        </message>
+        <message>
+            <source>a worker cannot read {path} ({reason}): give --folder a folder that all computers see under one name</source>
+            <translation type="unfinished">ein Worker kann {path} nicht lesen ({reason}): bei --folder einen Ordner angeben, den alle Rechner unter einem Namen sehen</translation>
+        </message>
+        <message>
+            <source>{path} is another file for a worker, or was changed meanwhile: start again</source>
+            <translation type="unfinished">{path} ist für einen Worker eine andere Datei oder wurde inzwischen geändert: noch einmal beginnen</translation>
+        </message>
+        <message>
+            <source>its exercise is not in the library</source>
+            <translation type="unfinished">seine Übung ist nicht in der Bibliothek</translation>
+        </message>
+        <message>
+            <source>the attempt was not finished</source>
+            <translation type="unfinished">der Versuch wurde nicht beendet</translation>
+        </message>
+        <message>
+            <source>the worker {worker} has another Acus than this computer wants: {differences}</source>
+            <translation type="unfinished">der Worker {worker} hat ein anderes Acus, als dieser Rechner verlangt: {differences}</translation>
+        </message>
+        <message>
+            <source>--out {out}: only .parquet can be written</source>
+            <translation type="unfinished">--out {out}: nur .parquet kann geschrieben werden</translation>
+        </message>
+        <message>
+            <source>{done} of {rows} attempts</source>
+            <translation type="unfinished">{done} von {rows} Versuchen</translation>
+        </message>
+        <message>
+            <source>{folder} cannot be written: {reason}; what is done stays there</source>
+            <translation type="unfinished">{folder} ist nicht zu schreiben: {reason}; was fertig ist, bleibt dort</translation>
+        </message>
+        <message>
+            <source>{file} cannot be written: {reason}</source>
+            <translation type="unfinished">{file} ist nicht zu schreiben: {reason}</translation>
+        </message>
+        <message>
+            <source>--scheduler has its own workers, --local those of here: give one of them</source>
+            <translation type="unfinished">--scheduler hat eigene Worker, --local die von hier: eines von beiden angeben</translation>
+        </message>
+        <message>
+            <source>--grid says all: leave the exercise and the other options of the grid out</source>
+            <translation type="unfinished">--grid sagt alles: Übung und die anderen Optionen des Gitters weglassen</translation>
+        </message>
+        <message>
+            <source>name an exercise, or give --grid FILE</source>
+            <translation type="unfinished">eine Übung nennen oder --grid DATEI angeben</translation>
+        </message>
+        <message>
+            <source>--effect {option}: write NAME.PARAMETER=VALUE,VALUE, as puncture.force_scale=1,1.5</source>
+            <translation type="unfinished">--effect {option}: NAME.PARAMETER=WERT,WERT schreiben, wie puncture.force_scale=1,1.5</translation>
+        </message>
+        <message>
+            <source>{rows:#1 attempt|# attempts} in {out}</source>
+            <translation type="unfinished">{rows:#1 Versuch|# Versuche} in {out}</translation>
+        </message>
+        <message>
+            <source>{parts:#1 part|# parts}, of which {done_before} were there; {seconds:.0f} s</source>
+            <translation type="unfinished">{parts:#1 Teil|# Teile}, davon {done_before} schon da; {seconds:.0f} s</translation>
+        </message>
+        <message>
+            <source>an attempt costs {cost.attempt_s:.3g} s of a processor</source>
+            <translation type="unfinished">ein Versuch kostet {cost.attempt_s:.3g} s eines Prozessors</translation>
+        </message>
+        <message>
+            <source>{cost.attempts:.3g} attempts would cost {cost.core_hours:.3g} hours of a processor</source>
+            <translation type="unfinished">{cost.attempts:.3g} Versuche würden {cost.core_hours:.3g} Stunden eines Prozessors kosten</translation>
+        </message>
+        <message>
+            <source>{cost.price:?at {cost.price:g} an hour: {cost.money:.3g}|}</source>
+            <translation type="unfinished">{cost.price:?bei {cost.price:g} je Stunde: {cost.money:.3g}|}</translation>
+        </message>
     </context>
 </TS>

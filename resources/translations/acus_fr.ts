@@ -20802,5 +20802,181 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>Not taken: {what}</source>
             <translation type="unfinished">Non repris : {what}</translation>
         </message>
+        <message>
+            <source>--local {processes}: at least 1</source>
+            <translation type="unfinished">--local {processes} : au moins 1</translation>
+        </message>
+        <message>
+            <source>what is done is kept: the same command goes on from there</source>
+            <translation type="unfinished">ce qui est fait est gardé : la même commande reprend à cet endroit</translation>
+        </message>
+        <message>
+            <source>use --local 1, which needs none</source>
+            <translation type="unfinished">utilisez --local 1, qui n’en demande pas</translation>
+        </message>
+        <message>
+            <source>{address!r} is no address of a scheduler: write tcp://127.0.0.1:8786, or tls://HOST:8786</source>
+            <translation type="unfinished">{address!r} n’est pas l’adresse d’un ordonnanceur : écrivez tcp://127.0.0.1:8786 ou tls://HÔTE:8786</translation>
+        </message>
+        <message>
+            <source>{address} is not on this computer and not by TLS: Dask runs what it is sent, whoever sends it; use tls:// with certificates (docs/cohort.md)</source>
+            <translation type="unfinished">{address} n’est pas sur cet ordinateur et pas en TLS : Dask exécute ce qu’on lui envoie, quel que soit l’expéditeur ; utilisez tls:// avec des certificats (docs/cohort.md)</translation>
+        </message>
+        <message>
+            <source>the scheduler at {address} has no worker: start some (docs/cohort.md)</source>
+            <translation type="unfinished">l’ordonnanceur {address} n’a aucun worker : démarrez-en (docs/cohort.md)</translation>
+        </message>
+        <message>
+            <source>worker {address} has no Acus of this kind ({reason}): install the same there as here</source>
+            <translation type="unfinished">le worker {address} n’a pas cet Acus ({reason}) : installez-y le même qu’ici</translation>
+        </message>
+        <message>
+            <source>worker {address} has another Acus: {differences}; install the same there as here</source>
+            <translation type="unfinished">le worker {address} a un autre Acus : {differences} ; installez-y le même qu’ici</translation>
+        </message>
+        <message>
+            <source>the scheduler at {address} has had no worker for {seconds:g} s: {kept}</source>
+            <translation type="unfinished">l’ordonnanceur {address} n’a aucun worker depuis {seconds:g} s : {kept}</translation>
+        </message>
+        <message>
+            <source>several workers ended over the same part (out of memory?): {kept}</source>
+            <translation type="unfinished">plusieurs workers se sont arrêtés sur la même partie (mémoire insuffisante ?) : {kept}</translation>
+        </message>
+        <message>
+            <source>the scheduler at {address} is gone: {kept}</source>
+            <translation type="unfinished">l’ordonnanceur {address} n’est plus là : {kept}</translation>
+        </message>
+        <message>
+            <source>this computer</source>
+            <translation type="unfinished">cet ordinateur</translation>
+        </message>
+        <message>
+            <source>no scheduler answers at {address} ({reason}): start one, or use --local</source>
+            <translation type="unfinished">aucun ordonnanceur ne répond à {address} ({reason}) : démarrez-en un ou utilisez --local</translation>
+        </message>
+        <message>
+            <source>the certificates of Dask's configuration cannot be used ({reason}): see docs/cohort.md</source>
+            <translation type="unfinished">les certificats de la configuration de Dask sont inutilisables ({reason}) : voir docs/cohort.md</translation>
+        </message>
+        <message>
+            <source>Dask's configuration names no certificates for tls://: set DASK_DISTRIBUTED__COMM__TLS__CA_FILE and the client's (docs/cohort.md)</source>
+            <translation type="unfinished">la configuration de Dask ne nomme aucun certificat pour tls:// : définissez DASK_DISTRIBUTED__COMM__TLS__CA_FILE et ceux du client (docs/cohort.md)</translation>
+        </message>
+        <message>
+            <source>no skill {name!r}; there are {skills}</source>
+            <translation type="unfinished">aucun niveau {name!r} ; il y a {skills}</translation>
+        </message>
+        <message>
+            <source>{axis!r}: write EFFECT.PARAMETER, as puncture.force_scale</source>
+            <translation type="unfinished">{axis!r} : écrivez EFFET.PARAMÈTRE, comme puncture.force_scale</translation>
+        </message>
+        <message>
+            <source>{field}: give one value at least</source>
+            <translation type="unfinished">{field} : donnez au moins une valeur</translation>
+        </message>
+        <message>
+            <source>{field}: a value stands there twice</source>
+            <translation type="unfinished">{field} : une valeur y figure deux fois</translation>
+        </message>
+        <message>
+            <source>the grid has {count} attempts; at most {most} are done at once</source>
+            <translation type="unfinished">la grille compte {count} essais ; {most} au plus sont faits en une fois</translation>
+        </message>
+        <message>
+            <source>{field}: {reason}</source>
+            <translation type="unfinished">{field} : {reason}</translation>
+        </message>
+        <message>
+            <source>exercise {exercise} does not ask for the effect {effect}: {axis} would change nothing</source>
+            <translation type="unfinished">l’exercice {exercise} ne demande pas l’effet {effect} : {axis} ne changerait rien</translation>
+        </message>
+        <message>
+            <source>exercise {exercise}: {reason}</source>
+            <translation type="unfinished">exercice {exercise} : {reason}</translation>
+        </message>
+        <message>
+            <source> of exercise {id}</source>
+            <translation type="unfinished"> de l’exercice {id}</translation>
+        </message>
+        <message>
+            <source>there is no attempt{whose} in {folder}</source>
+            <translation type="unfinished">il n’y a aucun essai{whose} dans {folder}</translation>
+        </message>
+        <message>
+            <source>the record cannot be read</source>
+            <translation type="unfinished">l’enregistrement est illisible</translation>
+        </message>
+        <message>
+            <source>a worker cannot read {path} ({reason}): give --folder a folder that all computers see under one name</source>
+            <translation type="unfinished">un worker ne peut pas lire {path} ({reason}) : donnez à --folder un dossier que tous les ordinateurs voient sous un même nom</translation>
+        </message>
+        <message>
+            <source>{path} is another file for a worker, or was changed meanwhile: start again</source>
+            <translation type="unfinished">{path} est un autre fichier pour un worker, ou a changé entre-temps : recommencez</translation>
+        </message>
+        <message>
+            <source>its exercise is not in the library</source>
+            <translation type="unfinished">son exercice n’est pas dans la bibliothèque</translation>
+        </message>
+        <message>
+            <source>the attempt was not finished</source>
+            <translation type="unfinished">l’essai n’a pas été terminé</translation>
+        </message>
+        <message>
+            <source>the worker {worker} has another Acus than this computer wants: {differences}</source>
+            <translation type="unfinished">le worker {worker} a un autre Acus que celui que demande cet ordinateur : {differences}</translation>
+        </message>
+        <message>
+            <source>--out {out}: only .parquet can be written</source>
+            <translation type="unfinished">--out {out} : seul .parquet peut être écrit</translation>
+        </message>
+        <message>
+            <source>{done} of {rows} attempts</source>
+            <translation type="unfinished">{done} essais sur {rows}</translation>
+        </message>
+        <message>
+            <source>{folder} cannot be written: {reason}; what is done stays there</source>
+            <translation type="unfinished">{folder} ne peut pas être écrit : {reason} ; ce qui est fait y reste</translation>
+        </message>
+        <message>
+            <source>{file} cannot be written: {reason}</source>
+            <translation type="unfinished">{file} ne peut pas être écrit : {reason}</translation>
+        </message>
+        <message>
+            <source>--scheduler has its own workers, --local those of here: give one of them</source>
+            <translation type="unfinished">--scheduler a ses propres workers, --local ceux d’ici : donnez l’un des deux</translation>
+        </message>
+        <message>
+            <source>--grid says all: leave the exercise and the other options of the grid out</source>
+            <translation type="unfinished">--grid dit tout : omettez l’exercice et les autres options de la grille</translation>
+        </message>
+        <message>
+            <source>name an exercise, or give --grid FILE</source>
+            <translation type="unfinished">nommez un exercice, ou donnez --grid FICHIER</translation>
+        </message>
+        <message>
+            <source>--effect {option}: write NAME.PARAMETER=VALUE,VALUE, as puncture.force_scale=1,1.5</source>
+            <translation type="unfinished">--effect {option} : écrivez NOM.PARAMÈTRE=VALEUR,VALEUR, comme puncture.force_scale=1,1.5</translation>
+        </message>
+        <message>
+            <source>{rows:#1 attempt|# attempts} in {out}</source>
+            <translation type="unfinished">{rows:#1 essai|# essais} dans {out}</translation>
+        </message>
+        <message>
+            <source>{parts:#1 part|# parts}, of which {done_before} were there; {seconds:.0f} s</source>
+            <translation type="unfinished">{parts:#1 partie|# parties}, dont {done_before} déjà là ; {seconds:.0f} s</translation>
+        </message>
+        <message>
+            <source>an attempt costs {cost.attempt_s:.3g} s of a processor</source>
+            <translation type="unfinished">un essai coûte {cost.attempt_s:.3g} s d’un processeur</translation>
+        </message>
+        <message>
+            <source>{cost.attempts:.3g} attempts would cost {cost.core_hours:.3g} hours of a processor</source>
+            <translation type="unfinished">{cost.attempts:.3g} essais coûteraient {cost.core_hours:.3g} heures d’un processeur</translation>
+        </message>
+        <message>
+            <source>{cost.price:?at {cost.price:g} an hour: {cost.money:.3g}|}</source>
+            <translation type="unfinished">{cost.price:?à {cost.price:g} l’heure : {cost.money:.3g}|}</translation>
+        </message>
     </context>
 </TS>

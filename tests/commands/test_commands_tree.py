@@ -20,7 +20,8 @@ SAYS_NO_FACTS = {("run",), ("demo",), ("device", "emulate")}
 NEEDS_MORE = {
     "calibrate export", "calibrate import", "calibrate mono", "calibrate redo", "calibrate reject",
     "calibrate show", "calibrate stereo", "calibrate undo", "calibrate use", "calibrate views",
-    "calibrate world", "ct digest", "ct import", "ct list", "ct path", "ct point",
+    "calibrate world", "cohort rescore", "cohort sweep",
+    "ct digest", "ct import", "ct list", "ct path", "ct point",
     "device calibrate", "device show", "exercise bands", "exercise mark", "exercise pack",
     "exercise trial", "exercise unpack",
     "device test", "pacs echo", "pacs find", "pacs get", "pacs move",
