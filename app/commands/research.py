@@ -1,0 +1,244 @@
+"""`acus research`: studies with students, from design to the bundle that is published."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from app.commands import completion
+from app.commands.answer import Answer, Commands
+from app.commands.doors import instructor
+from app.commands.reader_language import template
+from app.commands.shown import Each
+from app.core.messages import sentence
+
+if TYPE_CHECKING:
+    from app.research.research_study import ResearchStudy
+    from app.session.people import People
+
+DesignFile = Annotated[Path, typer.Argument(metavar="FILE", help="Design of the study, YAML.")]
+StudyName = Annotated[str, typer.Argument(metavar="STUDY", help="Its id.")]
+Student = Annotated[
+    str,
+    typer.Argument(metavar="STUDENT", help="Pseudonym.", autocompletion=completion.students),
+]
+FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
+
+RANK = 115
+
+
+def register(app: typer.Typer) -> None:
+    """Add `research new`, `check`, `begin`, `enrol`, `leave`, `status` and `lock`."""
+    research = Commands(help="Research studies with students.")
+    for command in (new, check, begin, enrol, leave, status, lock):
+        research.command(command.__name__)(command)
+    app.add_typer(research, name="research")
+
+
+def new(
+    out: Annotated[Path, typer.Option("--out", help="File to write.")],
+) -> Answer:
+    """Write the design of an example study to change (instructor)."""
+    from app.core import paths
+    from app.core.files import write_atomically
+    from app.research import ResearchError
+
+    instructor()
+    example = paths.resources() / "research" / "design.yaml"
+    if out.exists():
+        raise ResearchError(sentence("{file} is there already: give another name", file=out))
+    try:
+        write_atomically(out, example.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ResearchError(
+            sentence("cannot write {path}: {reason}", path=out, reason=error.strerror or error)
+        ) from error
+    shown = template("{files}: change it, then `acus research check {files.0}`")
+    return Answer({"files": [str(out)]}, shown=shown)
+
+
+def check(design: DesignFile) -> Answer:
+    """Say whether a study can begin as designed (instructor).
+
+    Ends with code 3 if it cannot.
+    """
+    from app.research import design_problems, read_design
+    from app.research.allocation_list import imbalance_bound
+
+    instructor()
+    found = read_design(design)
+    problems = design_problems(found)
+    facts = {
+        "study": found.id,
+        "arms": [arm.name for arm in found.arms],
+        "participants": found.participants,
+        "lists": list(found.randomisation.labels()),
+        "imbalance": imbalance_bound(found),
+        "problems": problems,
+    }
+    shown = (
+        template("{study}: {participants} participants in {arms}, {lists:#1 list|# lists}"),
+        template("in a list arms are never more than {imbalance} apart"),
+        Each("problems", "✖ {}"),
+    )
+    return Answer(facts, yes=not problems, shown=shown)
+
+
+def begin(
+    design: DesignFile,
+    seed: Annotated[
+        int | None,
+        typer.Option("--seed", help="Of the list: who knows it knows the list."),
+    ] = None,
+) -> Answer:
+    """Begin a study: its list is drawn and sealed (instructor).
+
+    Each arm gets a course, and an exercise of its own where it changes one. Register the
+    commitment before the first student: it shows at the end that the list was this one.
+    """
+    from app.research import begin as begin_study
+    from app.session.people import People
+
+    people = People()
+    instructor(people)
+    study = begin_study(design, people, seed)
+    facts = {
+        "study": study.design.id,
+        "folder": str(study.folder),
+        "commitment": study.sealed["commitment"],
+        "design": study.design.digest,
+    }
+    shown = (
+        template("{study} has begun: its list is sealed"),
+        template("commitment to register: {commitment}"),
+    )
+    return Answer(facts, shown=shown)
+
+
+def enrol(
+    study: StudyName,
+    student: Student,
+    consent_by: Annotated[str, typer.Option("--consent-by", help="Who took the consent.")],
+    consent_version: Annotated[
+        str, typer.Option("--consent-version", help="Of the text that was signed.")
+    ],
+    stratum: Annotated[
+        list[str] | None, typer.Option("--stratum", help="FACTOR=LEVEL, for each factor.")
+    ] = None,
+) -> Answer:
+    """Enrol a student who consented, and show the arm (instructor).
+
+    The next place of the list is opened now and not before. The student takes the course of the
+    arm from now on.
+    """
+    from app.research import ResearchError
+    from app.research.research_study import group_of
+
+    people, found = _opened(study)
+    if consent_version != found.design.consent.version:
+        raise ResearchError(
+            sentence(
+                "the student signed version {given}; the study has version {version}",
+                given=consent_version,
+                version=found.design.consent.version,
+            )
+        )
+    levels = dict(_level(text) for text in stratum or ())
+    one = found.enrol(people.find(student), levels, consent_by, people)
+    facts = {
+        "study": found.design.id,
+        "code": one.code,
+        "arm": one.arm,
+        "course": group_of(found.design, one.arm),
+        "enrolled": one.enrolled,
+        "consent": one.consent,
+    }
+    shown = template("{code} is in arm {arm}: course {course}")
+    return Answer(facts, shown=shown)
+
+
+def leave(
+    study: StudyName,
+    student: Student,
+    reason: Annotated[str, typer.Option("--reason", help="As it goes into the flow.")] = "",
+    withdraw_data: Annotated[
+        bool, typer.Option("--withdraw-data", help="What was recorded is not used either.")
+    ] = False,
+) -> Answer:
+    """Let a student leave a study (instructor)."""
+    people, found = _opened(study)
+    one = found.leave(people.find(student), reason, withdraw_data, people)
+    facts = {"study": found.design.id, "code": one.code, "withdrawn": one.withdrawn}
+    shown = template("{code} has left{withdrawn:?; the data are not used|}")
+    return Answer(facts, shown=shown)
+
+
+def status(
+    study: Annotated[str, typer.Argument(metavar="STUDY", help="Its id; all without it.")] = "",
+    folder: FolderOption = None,
+) -> Answer:
+    """Show who is enrolled, and which visits are due (instructor).
+
+    Arms stay hidden while the assessor is blind.
+    """
+    from app.research import studies_here
+    from app.research.status import status_of
+    from app.session.store import records_folder
+
+    if study:
+        people, found = _opened(study)
+        studies = [found]
+    else:
+        from app.session.people import People
+
+        people = People()
+        instructor(people)
+        studies = studies_here()
+    place = records_folder(folder)
+    facts = {"studies": [status_of(one, people, place) for one in studies]}
+    visit = template(
+        "  {pseudonym} ({code}): {visit} from {opens} to {closes}, {attempts} of {wanted} attempts"
+        "{late:? — late|}"
+    )
+    shown = Each(
+        "studies",
+        (
+            template("{study}: {enrolled} of {participants} enrolled, {left} left"),
+            Each("arms", template("  {arm}: {enrolled} enrolled")),
+            template("{blind:?  arms are hidden until the data are locked|}"),
+            template("{locked:?  the data were locked on {locked:@}|}"),
+            Each("due", visit),
+        ),
+        template("no study has begun here: `acus research new --out FILE` writes a design"),
+    )
+    return Answer(facts, shown=shown)
+
+
+def lock(
+    study: StudyName,
+    by: Annotated[str, typer.Option("--by", help="Who locks them.")],
+) -> Answer:
+    """Lock a study's data: enrolment ends, arms are shown (instructor).
+
+    It cannot be undone.
+    """
+    _, found = _opened(study)
+    facts = {"study": found.design.id, "locked": found.lock(by)}
+    return Answer(facts, shown=template("the data of {study} are locked"))
+
+
+def _opened(study: str) -> "tuple[People, ResearchStudy]":
+    """Return people and a study, to the instructor."""
+    from app.research import find_study
+    from app.session.people import People
+
+    people = People()
+    instructor(people)
+    return people, find_study(study)
+
+
+def _level(text: str) -> tuple[str, Any]:
+    factor, equals, level = text.partition("=")
+    if not equals:
+        raise typer.BadParameter(sentence("{text!r}: give FACTOR=LEVEL", text=text))
+    return factor.strip(), level.strip()

@@ -1,0 +1,76 @@
+"""Which recorded attempts belong to a research study: whose, at which visit, on which arm."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.core.progress import Progress
+from app.research.design import exercise_of
+from app.research.ledger import Participant, digest_of_person
+from app.research.research_study import ResearchStudy, days_between
+from app.session.index import Index, Indexed
+from app.session.people import People
+
+
+@dataclass(frozen=True, slots=True)
+class StudyAttempt:
+    """An attempt of a study.
+
+    Attributes:
+        participant: code.
+        visit: name; empty outside of every window.
+        day: after enrolment.
+        number: within participant and visit, from 1.
+        attempt: as this station lists it.
+    """
+
+    participant: str
+    visit: str
+    day: int
+    number: int
+    attempt: Indexed
+
+
+def attempts_of(
+    study: ResearchStudy,
+    participants: Sequence[Participant],
+    people: People,
+    records: Path,
+    progress: Progress | None = None,
+) -> list[StudyAttempt]:
+    """Return the attempts of participants at the exercise of their arm, since their enrolment.
+
+    By code, then in time. Attempts of no person, drills, and those that this station does not vouch
+    for are left out, and so are all of whoever withdrew the data.
+
+    Raises:
+        DatabaseError, SessionError: if the index cannot be read.
+        Cancelled: if that was asked for.
+    """
+    salt = study.salt(people)
+    by_person = {one.person: one for one in participants if not one.withdrawn}
+    digests = {p.key: digest_of_person(salt, p.key) for p in people.everybody()}
+    known = {key: by_person[digest] for key, digest in digests.items() if digest in by_person}
+    if not known:
+        return []
+    exercises = {arm.name: exercise_of(study.design, arm).id for arm in study.design.arms}
+    index = Index(records)
+    index.refresh(progress)
+    counts: Counter[tuple[str, str]] = Counter()
+    found = []
+    for one in index.attempts(list(known)):
+        person = known[one.student]
+        by_hand = one.conditions.by_person and not one.conditions.drill
+        if not (one.stands and by_hand and one.exercise == exercises[person.arm]):
+            continue
+        if one.started < person.enrolled or (person.left and one.started > person.left_on):
+            continue
+        day = days_between(person.enrolled, one.time.isoformat())
+        visit = study.design.visit_of(day)
+        place = (person.code, visit.name if visit else "")
+        counts[place] += 1
+        found.append(StudyAttempt(*place, day, counts[place], one))
+    return sorted(found, key=lambda one: (one.participant, one.attempt.started))
