@@ -28,9 +28,9 @@ RANK = 115
 
 
 def register(app: typer.Typer) -> None:
-    """Add `research new`, `check`, `begin`, `enrol`, `leave`, `status` and `lock`."""
+    """Add the commands of research studies."""
     research = Commands(help="Research studies with students.")
-    for command in (new, check, begin, enrol, leave, status, lock):
+    for command in (new, check, begin, enrol, leave, status, lock, bundle, verify):
         research.command(command.__name__)(command)
     app.add_typer(research, name="research")
 
@@ -225,6 +225,68 @@ def lock(
     _, found = _opened(study)
     facts = {"study": found.design.id, "locked": found.lock(by)}
     return Answer(facts, shown=template("the data of {study} are locked"))
+
+
+def bundle(
+    study: StudyName,
+    out: Annotated[Path, typer.Option("--out", help="File to write, .zip.")],
+    folder: FolderOption = None,
+) -> Answer:
+    """Write all of a study as one file that names nobody (instructor).
+
+    Tables with their codebook, the flow of participants, exercises, series and scores. Ctrl-C
+    cancels; a file is written whole or not at all.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.research.bundle import write_bundle
+    from app.session.store import records_folder
+
+    people, found = _opened(study)
+    place = records_folder(folder)
+    done = with_progress(lambda progress: write_bundle(found, people, place, out, progress))
+    facts = {
+        "files": [str(out)],
+        "participants": done.participants,
+        "attempts": done.attempts,
+        "series": done.series,
+        "digest": done.digest,
+    }
+    shown = (
+        template(
+            "{participants:#1 participant|# participants}, {attempts:#1 attempt|# attempts} "
+            "written to {files}"
+        ),
+        template("its digest, to be stated with the results: {digest}"),
+    )
+    return Answer(facts, shown=shown)
+
+
+def verify(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Bundle of a study.")],
+) -> Answer:
+    """Check a bundle: hashes, allocations, every score again.
+
+    It needs nothing but the file. Ends with code 3 if something differs.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.research.bundle_check import check_bundle
+
+    found = with_progress(lambda progress: check_bundle(file, progress))
+    facts = {
+        "study": found.study,
+        "digest": found.digest,
+        "files": found.files,
+        "scores": found.scores,
+        "problems": list(found.problems),
+    }
+    shown = (
+        template(
+            "{study}: {files:#1 file|# files} as stated, {scores:#1 score|# scores} computed again"
+        ),
+        template("digest: {digest}"),
+        Each("problems", "✖ {}"),
+    )
+    return Answer(facts, yes=not found.problems, shown=shown)
 
 
 def _opened(study: str) -> "tuple[People, ResearchStudy]":

@@ -141,16 +141,16 @@ class Consent(Strict):
 
     Attributes:
         version: of the text.
-        text: whole.
+        wording: the whole text.
     """
 
     version: Annotated[str, Field(min_length=1, max_length=40)]
-    text: Annotated[str, Field(min_length=1)]
+    wording: Annotated[str, Field(min_length=1)]
 
     @property
     def digest(self) -> str:
         """Return the SHA-256 of the text, hexadecimal."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
+        return hashlib.sha256(self.wording.encode()).hexdigest()
 
 
 class Stopping(Strict):

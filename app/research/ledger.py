@@ -46,7 +46,7 @@ class Participant:
         stratum: name of the list.
         slot: in the list, from 0.
         enrolled: day and time, ISO 8601, UTC: of day 0.
-        consent: `version`, `digest` of the text, `given` (ISO 8601), `by`: who took it.
+        consent: `version`, `digest` of the wording, `time` (ISO 8601), `by`: who took it.
         left: why the student left; empty if not.
         left_on: ISO 8601; empty if not.
         withdrawn: whether the data may not be used either.

@@ -157,7 +157,7 @@ class ResearchStudy:
                 "consent": {
                     "version": self.design.consent.version,
                     "digest": self.design.consent.digest,
-                    "given": moment,
+                    "time": moment,
                     "by": consent_by.strip(),
                 },
             }

@@ -179,3 +179,18 @@ def test_enrolment_ends_with_the_participants_of_the_design_and_on_its_last_day(
     people.take_roster([RosterLine("Eve", pin="1843")])
     with pytest.raises(ResearchError, match="all 2 participants"):
         few.enrol(people.find("Eve"), {"experience": "none"}, "AB", people)
+
+
+def test_a_study_is_bundled_and_verified(acus, begun, tmp_path):
+    names = [f"S-{k}" for k in range(6)]  # a block of six at the most has both arms
+    People().take_roster([RosterLine(name, pin="1843") for name in names])
+    for name in names:
+        acus("research", "enrol", NAME, name, *CONSENT)
+    out = tmp_path / "b.zip"
+    assert "lock the data first" in refused(acus, "research", "bundle", NAME, "--out", out)
+    acus("research", "lock", NAME, "--by", "CD")
+    assert acus("research", "bundle", NAME, "--out", out)["participants"] == 6
+    found = acus("research", "verify", out)
+    assert (found["study"], found["problems"]) == (NAME, [])
+    out.write_bytes(b"PK")
+    assert "fetch it again" in refused(acus, "research", "verify", out)

@@ -29,8 +29,9 @@ NEEDS_MORE = {
     "transform export", "transform show", "urdf import", "camera test", "library remove",
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
-    "results export", "session delete", "session restore", "store gather", "store restore",
-    "store revoke", "store sync",
+    "research begin", "research bundle", "research check", "research enrol", "research leave",
+    "research lock", "research verify", "results export", "session delete", "session restore",
+    "store gather", "store restore", "store revoke", "store sync",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
@@ -118,6 +119,8 @@ EXAMPLES = {
     "registration list": (),
     "course list": (),
     "people list": (),
+    "research new": ("--out", "design.yaml"),
+    "research status": (),
     "results board": (),
     "session export": ("--out", "all.csv"),
     "session list": (),
