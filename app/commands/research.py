@@ -30,7 +30,7 @@ RANK = 115
 def register(app: typer.Typer) -> None:
     """Add the commands of research studies."""
     research = Commands(help="Research studies with students.")
-    for command in (new, check, begin, enrol, leave, status, lock, bundle, verify):
+    for command in (new, check, begin, enrol, leave, status, lock, bundle, verify, power):
         research.command(command.__name__)(command)
     app.add_typer(research, name="research")
 
@@ -138,8 +138,8 @@ def enrol(
     if consent_version != found.design.consent.version:
         raise ResearchError(
             sentence(
-                "the student signed version {given}; the study has version {version}",
-                given=consent_version,
+                "the student signed version {signed}; the study has version {version}",
+                signed=consent_version,
                 version=found.design.consent.version,
             )
         )
@@ -289,6 +289,79 @@ def verify(
     return Answer(facts, yes=not found.problems, shown=shown)
 
 
+def power(
+    effect: Annotated[float, typer.Option("--effect", help="Difference of the arms.")],
+    sd: Annotated[float, typer.Option("--sd", help="Between students, at one visit.")],
+    correlation: Annotated[
+        float, typer.Option("--correlation", help="Of a student's two visits, 0 to 1.")
+    ] = 0.5,
+    visits: Annotated[int, typer.Option("--visits", help="The first is before training.")] = 2,
+    students: Annotated[
+        int | None, typer.Option("--students", help="In all; else as many as --power needs.")
+    ] = None,
+    wanted: Annotated[float, typer.Option("--power", help="That is wanted.")] = 0.8,
+    dropout: Annotated[float, typer.Option("--dropout", help="Share that leaves.")] = 0.0,
+    alpha: Annotated[float, typer.Option("--alpha", help="Of the two-sided test.")] = 0.05,
+    share: Annotated[float, typer.Option("--share", help="Of students in arm two.")] = 0.5,
+    simulations: Annotated[int, typer.Option("--simulations", help="How many studies.")] = 2000,
+    seed: Annotated[int, typer.Option("--seed", help="Of the simulated studies.")] = 1,
+) -> Answer:
+    """Say how many students two arms need, or which power they have.
+
+    Simulates studies under a mixed model with students as random intercepts, and fits each; beside
+    it the closed forms of the t test and of the covariate test.
+    """
+    from app.research.power import Assumptions, power_of_t, simulate, students_by_simulation
+    from app.research.power import students_for as closed_form
+
+    for name, value, least, most in (
+        ("--power", wanted, 0.06, 0.99),
+        ("--dropout", dropout, 0.0, 0.9),
+        ("--simulations", simulations, 100, 100_000),
+    ):
+        if not least <= value <= most:
+            raise typer.BadParameter(
+                sentence(
+                    "{name} is {value:g}: give {least:g} to {most:g}",
+                    name=name,
+                    value=value,
+                    least=least,
+                    most=most,
+                )
+            )
+    assumed = Assumptions(effect, sd, correlation, visits, share, alpha)
+    stay = 1.0 - dropout
+    if students is None:
+        done = students_by_simulation(assumed, wanted, simulations, seed)
+    else:
+        done = simulate(int(students * stay + 1e-9), assumed, simulations, seed)
+    facts = {
+        "students": students or -int(-done.students / stay // 1),
+        "complete": done.students,
+        "power": done.power,
+        "power_error": done.error,
+        "coverage": done.coverage,
+        "simulations": done.simulations,
+        "t_test": {
+            "power": power_of_t(done.students, assumed, False),
+            "students": closed_form(lambda n: power_of_t(n, assumed, False), wanted),
+        },
+        "with_baseline": {
+            "power": power_of_t(done.students, assumed, True),
+            "students": closed_form(lambda n: power_of_t(n, assumed, True), wanted),
+        },
+    }
+    shown = (
+        template(
+            "{students} students, of whom {complete} stay: power {power:.3f} ± {power_error:.3f} "
+            "by {simulations} simulated studies; the interval holds the effect in {coverage:.1%}"
+        ),
+        template("t test without baseline: power {t_test.power:.3f} with as many"),
+        template("with the first visit as covariate: power {with_baseline.power:.3f}"),
+    )
+    return Answer(facts, shown=shown)
+
+
 def _opened(study: str) -> "tuple[People, ResearchStudy]":
     """Return people and a study, to the instructor."""
     from app.research import find_study
@@ -302,5 +375,5 @@ def _opened(study: str) -> "tuple[People, ResearchStudy]":
 def _level(text: str) -> tuple[str, Any]:
     factor, equals, level = text.partition("=")
     if not equals:
-        raise typer.BadParameter(sentence("{text!r}: give FACTOR=LEVEL", text=text))
+        raise typer.BadParameter(sentence("{entry!r}: give FACTOR=LEVEL", entry=text))
     return factor.strip(), level.strip()

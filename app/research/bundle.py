@@ -165,10 +165,10 @@ def _check_ready(study: ResearchStudy, everybody: Sequence[Participant]) -> None
             )
 
 
-def _attempt_files(records: Path, one: StudyAttempt, code: str) -> dict[str, bytes]:
+def _attempt_files(records: Path, made: StudyAttempt, code: str) -> dict[str, bytes]:
     """Return series and score of an attempt; nothing of one that has no score to compute."""
     try:
-        recording = read_recording(find(records, one.attempt.id))
+        recording = read_recording(find(records, made.attempt.id))
         standing = verify(recording).standing
         if standing is None:
             return {}
@@ -212,30 +212,30 @@ def _tables(
     return found | {"codebook.csv": table_bytes(CODEBOOK, codebook_rows(__version__))}
 
 
-def _participant(one: Participant) -> Sequence[object]:
+def _participant(person: Participant) -> Sequence[object]:
     return (
-        one.code,
-        one.arm,
-        one.stratum,
-        one.slot + 1,
-        one.consent["version"],
-        bool(one.left),
-        days_between(one.enrolled, one.left_on) if one.left else None,
-        one.left,
-        one.withdrawn,
+        person.code,
+        person.arm,
+        person.stratum,
+        person.slot + 1,
+        person.consent["version"],
+        bool(person.left),
+        days_between(person.enrolled, person.left_on) if person.left else None,
+        person.left,
+        person.withdrawn,
     )
 
 
-def _attempt(one: StudyAttempt, arm: str, code: str, with_series: set[str]) -> Sequence[object]:
-    attempt, c = one.attempt, one.attempt.conditions
+def _attempt(made: StudyAttempt, arm: str, code: str, with_series: set[str]) -> Sequence[object]:
+    attempt, c = made.attempt, made.attempt.conditions
     result, dial = attempt.summary.score or {}, c.assistance
     return (
         code,
-        one.participant,
+        made.participant,
         arm,
-        one.visit,
-        one.day,
-        one.number,
+        made.visit,
+        made.day,
+        made.number,
         attempt.exercise,
         attempt.version,
         attempt.state,

@@ -187,7 +187,7 @@ def _attempt_problems(bundle: _Bundle, row: Mapping[str, Any]) -> list[str]:
         total = document["score"]["total"]
     except (AcusError, ValueError, LookupError, TypeError, zipfile.BadZipFile) as error:
         return [sentence("attempt {attempt}: {reason}", attempt=name, reason=error)]
-    lines = [
+    lines: list[str] = [
         sentence("attempt {attempt}: {change}", attempt=name, change=change.sentence())
         for change in found
     ]

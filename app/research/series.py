@@ -148,11 +148,12 @@ def trajectory_of(document: Mapping[str, Any], table: bytes) -> Trajectory:
         }
         placed: PlacedPlan = placed_plan(dict(document["plan"]))
         known = set(document["arrays"])
-        optional = {
+        optional: dict[str, Any] = {
             name: _array(columns, names) if name in known else None
             for name, names in _columns_of().items()
         }
         clamped = optional.pop("clamped")
+        numbers: dict[str, Any] = {name: float(document["numbers"][name]) for name in _NUMBERS}
         return Trajectory(
             placed=placed,
             time=_array(columns, ("time_s",)),
@@ -164,7 +165,7 @@ def trajectory_of(document: Mapping[str, Any], table: bytes) -> Trajectory:
             clamped=None if clamped is None else clamped > 0.0,
             aborted=str(document["aborted"]),
             **optional,
-            **{name: float(document["numbers"][name]) for name in _NUMBERS},
+            **numbers,
             **marks,
         )
     except (AcusError, ValueError, LookupError, TypeError, OSError, EOFError) as error:

@@ -194,3 +194,14 @@ def test_a_study_is_bundled_and_verified(acus, begun, tmp_path):
     assert (found["study"], found["problems"]) == (NAME, [])
     out.write_bytes(b"PK")
     assert "fetch it again" in refused(acus, "research", "verify", out)
+
+
+def test_power_is_for_so_many_students_or_says_how_many_are_needed(acus):
+    assumed = ("--effect", "10", "--sd", "15", "--simulations", "500")
+    needed = acus("research", "power", *assumed, "--dropout", "0.2")
+    assert needed["students"] > needed["complete"]
+    assert abs(needed["power"] - 0.8) < 0.1
+    few = acus("research", "power", *assumed, "--students", "20")
+    assert (few["students"], few["power"] < 0.6) == (20, True)
+    assert "--dropout is 1" in refused(acus, "research", "power", *assumed, "--dropout", "1")
+    assert "too few" in refused(acus, "research", "power", *assumed, "--students", "3")

@@ -120,6 +120,7 @@ EXAMPLES = {
     "course list": (),
     "people list": (),
     "research new": ("--out", "design.yaml"),
+    "research power": ("--effect", "9", "--sd", "10", "--simulations", "100"),
     "research status": (),
     "results board": (),
     "session export": ("--out", "all.csv"),
