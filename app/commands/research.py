@@ -30,7 +30,7 @@ RANK = 115
 def register(app: typer.Typer) -> None:
     """Add the commands of research studies."""
     research = Commands(help="Research studies with students.")
-    for command in (new, check, begin, enrol, leave, status, lock, bundle, verify, power):
+    for command in (new, check, begin, enrol, answer, leave, status, lock, bundle, verify, power):
         research.command(command.__name__)(command)
     app.add_typer(research, name="research")
 
@@ -154,6 +154,57 @@ def enrol(
         "consent": one.consent,
     }
     shown = template("{code} is in arm {arm}: course {course}")
+    return Answer(facts, shown=shown)
+
+
+def answer(
+    study: StudyName,
+    questionnaire: Annotated[
+        str, typer.Argument(metavar="QUESTIONNAIRE", help="sus, nasa-tlx, realism, or a .yaml.")
+    ],
+    file: Annotated[
+        Path | None, typer.Option("--from", help="CSV with student, visit and a column an item.")
+    ] = None,
+    student: Annotated[
+        str,
+        typer.Option("--student", help="Pseudonym.", autocompletion=completion.students),
+    ] = "",
+    visit: Annotated[str, typer.Option("--visit", help="Name of the visit.")] = "",
+    answers: Annotated[
+        list[str] | None, typer.Option("--answer", help="ITEM=NUMBER, for each item.")
+    ] = None,
+) -> Answer:
+    """Enter what students answered to a questionnaire (instructor).
+
+    All rows of a file are taken or none. Scores are made by the questionnaire's rule.
+    """
+    from app.research import ResearchError
+    from app.research.questionnaires import find_questionnaire, numbers_of, read_answers
+    from app.research.research_study import AnsweredRow
+
+    people, found = _opened(study)
+    asked = find_questionnaire(questionnaire)
+    if (file is None) == (not student):
+        raise ResearchError(sentence("give --from FILE, or --student, --visit and --answer"))
+    if file is None:
+        items = [_level(text) for text in answers or ()]
+        rows = [AnsweredRow(student, visit, numbers_of(dict(items)))]
+    else:
+        rows = []
+        for row in read_answers(file):
+            who, when = row.pop("student", ""), row.pop("visit", "")
+            rows.append(AnsweredRow(who, when, numbers_of(row)))
+    scores = found.answer(rows, asked, people)
+    facts = {
+        "study": found.design.id,
+        "questionnaire": asked.id,
+        "answers": [
+            {"pseudonym": row.student, "visit": row.visit, "scores": made}
+            for row, made in zip(rows, scores, strict=True)
+        ],
+    }
+    score = Each("scores", template("  {key}: {value:.1f}"))
+    shown = Each("answers", (template("{pseudonym} at {visit}"), score))
     return Answer(facts, shown=shown)
 
 
@@ -322,9 +373,9 @@ def power(
         if not least <= value <= most:
             raise typer.BadParameter(
                 sentence(
-                    "{name} is {value:g}: give {least:g} to {most:g}",
+                    "{name} is {entry:g}: give {least:g} to {most:g}",
                     name=name,
-                    value=value,
+                    entry=value,
                     least=least,
                     most=most,
                 )
@@ -375,5 +426,5 @@ def _opened(study: str) -> "tuple[People, ResearchStudy]":
 def _level(text: str) -> tuple[str, Any]:
     factor, equals, level = text.partition("=")
     if not equals:
-        raise typer.BadParameter(sentence("{entry!r}: give FACTOR=LEVEL", entry=text))
+        raise typer.BadParameter(sentence("{entry!r}: give NAME=VALUE", entry=text))
     return factor.strip(), level.strip()

@@ -58,9 +58,9 @@ class Assumptions:
             if not holds:
                 raise ResearchError(
                     sentence(
-                        "{name} is {value:g}; it must be {valid}",
+                        "{name} is {entry:g}; it must be {valid}",
                         name=name,
-                        value=getattr(self, name),
+                        entry=getattr(self, name),
                         valid=valid,
                     )
                 )

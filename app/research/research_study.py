@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
 from functools import cached_property
@@ -36,6 +36,7 @@ from app.research.design import (
 )
 from app.research.errors import ResearchError
 from app.research.ledger import (
+    ANSWERED,
     ENROLLED,
     LEFT,
     LOCKED,
@@ -46,6 +47,7 @@ from app.research.ledger import (
     new_code,
     participants_of,
 )
+from app.research.questionnaires import Questionnaire
 from app.session.course import Course, CourseItem, courses_folder
 from app.session.people import People, Person
 from app.session.roster import RosterLine
@@ -61,6 +63,21 @@ Clock = Callable[[], datetime]
 def now_utc() -> datetime:
     """Return the time of the wall's clock."""
     return datetime.now(UTC)
+
+
+@dataclass(frozen=True, slots=True)
+class AnsweredRow:
+    """Answers of a student to a questionnaire.
+
+    Attributes:
+        student: pseudonym.
+        visit: name.
+        answers: by item.
+    """
+
+    student: str
+    visit: str
+    answers: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -201,6 +218,64 @@ class ResearchStudy:
             )
         return next(one for one in self.participants() if one.code == found.code)
 
+    def answer(
+        self, rows: Sequence[AnsweredRow], questionnaire: Questionnaire, people: People
+    ) -> list[dict[str, float]]:
+        """Write the answers of students to a questionnaire, all or none; return the scores.
+
+        Args:
+            rows: who answered at which visit, and what.
+            questionnaire: that was answered.
+            people: of this station.
+
+        Raises:
+            ResearchError: naming the first row that cannot be.
+            PeopleError: if somebody is no student here.
+        """
+        salt, scores = self.salt(people), list[dict[str, float]]()
+        visits = [visit.name for visit in self.design.visits]
+        with self.ledger.adding() as (there, new):
+            self._check_unlocked(locked_at(there))
+            codes = {one.person: one.code for one in participants_of(there) if not one.withdrawn}
+            answered = [one for one in there if one["kind"] == ANSWERED]
+            known = {(one["code"], one["visit"], one["questionnaire"]) for one in answered}
+            for row in rows:
+                code = codes.get(digest_of_person(salt, people.find(row.student).key))
+                if code is None or row.visit not in visits:
+                    raise ResearchError(
+                        sentence(
+                            "{pseudonym} at {visit!r}: not enrolled, withdrawn, or no visit of "
+                            "{study}; its visits are {visits}",
+                            pseudonym=row.student,
+                            visit=row.visit,
+                            study=self.design.id,
+                            visits=", ".join(visits),
+                        )
+                    )
+                place = (code, row.visit, questionnaire.id)
+                if place in known:
+                    raise ResearchError(
+                        sentence(
+                            "{pseudonym} has answered {questionnaire} at {visit} already",
+                            pseudonym=row.student,
+                            questionnaire=questionnaire.id,
+                            visit=row.visit,
+                        )
+                    )
+                known.add(place)
+                scores.append(questionnaire.scored(row.answers))
+                head = dict(zip(("code", "visit", "questionnaire"), place, strict=True))
+                new.append(
+                    head
+                    | {
+                        "kind": ANSWERED,
+                        "time": self.clock().isoformat(timespec="seconds"),
+                        "version": questionnaire.version,
+                        "values": dict(row.answers) | scores[-1],
+                    }
+                )
+        return scores
+
     def lock(self, by: str) -> str:
         """Lock the data: nobody is enrolled any more, and arms are shown; return when.
 
@@ -222,11 +297,14 @@ class ResearchStudy:
         """Return whether arms are hidden: the assessor is blind and the data are not locked."""
         return self.design.blind_assessor and not locked_at(self.ledger.entries())
 
-    def _check_open(self, known: list[Participant], locked: str) -> None:
+    def _check_unlocked(self, locked: str) -> None:
         if locked:
             raise ResearchError(
-                sentence("the data were locked on {moment}: nobody is enrolled", moment=locked[:10])
+                sentence("the data were locked on {moment}: nothing is added", moment=locked[:10])
             )
+
+    def _check_open(self, known: list[Participant], locked: str) -> None:
+        self._check_unlocked(locked)
         if len(known) >= self.design.participants:
             raise ResearchError(
                 sentence(

@@ -106,7 +106,7 @@ WRONG = {
     "version 2; the study": ("Ada", "--consent-by", "A", "--consent-version", "2"),
     "one of none, some": ("Ada", "--consent-by", "A", "--consent-version", "1"),
     "is no stratum": ("Ada", *CONSENT, "--stratum", "year=1"),
-    "give FACTOR=LEVEL": ("Ada", *CONSENT, "--stratum", "year"),
+    "give NAME=VALUE": ("Ada", *CONSENT, "--stratum", "year"),
     "who took the consent": (
         *("Ada", "--consent-by", " ", "--consent-version", "1"),
         *("--stratum", "experience=none"),
@@ -205,3 +205,27 @@ def test_power_is_for_so_many_students_or_says_how_many_are_needed(acus):
     assert (few["students"], few["power"] < 0.6) == (20, True)
     assert "--dropout is 1" in refused(acus, "research", "power", *assumed, "--dropout", "1")
     assert "too few" in refused(acus, "research", "power", *assumed, "--students", "3")
+
+
+SUS = {f"q{k}": x for k, x in enumerate((5, 4, 2, 1, 2, 3, 2, 4, 5, 2), 1)}
+
+
+def test_answers_are_entered_by_options_or_from_a_table_all_or_none(acus, begun, tmp_path):
+    for name in ("Ada", "Bob"):
+        acus("research", "enrol", NAME, name, *CONSENT)
+    options = [word for item, x in SUS.items() for word in ("--answer", f"{item}={x}")]
+    words = ("research", "answer", NAME, "sus")
+    (one,) = acus(*words, "--student", "Ada", "--visit", "pre", *options)["answers"]
+    assert one["scores"] == {"sus": pytest.approx(55.0)}
+    again = refused(acus, *words, "--student", "Ada", "--visit", "pre", *options)
+    assert "has answered sus at pre already" in again
+    table = tmp_path / "a.csv"
+    rows = [f"{name},post,{','.join(map(str, SUS.values()))}" for name in ("Ada", "Bob")]
+    table.write_text("\n".join([f"student,visit,{','.join(SUS)}", *rows, rows[0]]))
+    assert "has answered" in refused(acus, *words, "--from", table)
+    table.write_text("\n".join([f"student,visit,{','.join(SUS)}", *rows]))
+    assert len(acus(*words, "--from", table)["answers"]) == 2  # none was taken before
+    for name, when, reason in (("Ada", "later", "its visits are"), ("Eve", "pre", "no student")):
+        said = refused(acus, *words, "--student", name, "--visit", when, *options)
+        assert reason in said
+    assert "give --from FILE" in refused(acus, *words)
