@@ -7,9 +7,10 @@ the program's own accuracy are in `app.studies`.)
 The door: `ResearchDesign` and `read_design`, `begin` and `find_study`.
 """
 
+from app.research.beginning import begin
 from app.research.design import ResearchDesign, design_problems, read_design
 from app.research.errors import ResearchError
-from app.research.research_study import ResearchStudy, begin, find_study, studies_here
+from app.research.research_study import ResearchStudy, find_study, studies_here
 
 __all__ = [
     "ResearchDesign",

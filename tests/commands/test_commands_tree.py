@@ -30,8 +30,8 @@ NEEDS_MORE = {
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
     "research answer", "research begin", "research bundle", "research check", "research enrol",
-    "research leave", "research lock", "research verify", "results export", "session delete", "session restore",
-    "store gather", "store restore", "store revoke", "store sync",
+    "research leave", "research lock", "research verify", "results export", "session delete",
+    "session restore", "store gather", "store restore", "store revoke", "store sync",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
