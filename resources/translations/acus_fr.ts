@@ -19985,8 +19985,120 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{path} ne dit pas où est la base de l’école : reconnectez ce poste avec `acus store connect URL`</translation>
         </message>
         <message>
+            <source>{file} is there already: give another name</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>cannot write {path}: {reason}</source>
             <translation type="unfinished">impossible d’écrire {path} : {reason}</translation>
+        </message>
+        <message>
+            <source>{files}: change it, then `acus research check {files.0}`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{study}: {participants} participants in {arms}, {lists:#1 list|# lists}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>in a list arms are never more than {imbalance} apart</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{study} has begun: its list is sealed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>commitment to register: {commitment}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the student signed version {signed}; the study has version {version}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{code} is in arm {arm}: course {course}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>give --from FILE, or --student, --visit and --answer</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  {key}: {value:.1f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} at {visit}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{code} has left{withdrawn:?; the data are not used|}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  {pseudonym} ({code}): {visit} from {opens} to {closes}, {attempts} of {wanted} attempts{late:? — late|}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{study}: {enrolled} of {participants} enrolled, {left} left</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>  {arm}: {enrolled} enrolled</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{blind:?  arms are hidden until the data are locked|}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{locked:?  the data were locked on {locked:@}|}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no study has begun here: `acus research new --out FILE` writes a design</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the data of {study} are locked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{participants:#1 participant|# participants}, {attempts:#1 attempt|# attempts} written to {files}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>its digest, to be stated with the results: {digest}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{study}: {files:#1 file|# files} as stated, {scores:#1 score|# scores} computed again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>digest: {digest}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} is {entry:g}: give {least:g} to {most:g}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{students} students, of whom {complete} stay: power {power:.3f} ± {power_error:.3f} by {simulations} simulated studies; the interval holds the effect in {coverage:.1%}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>t test without baseline: power {t_test.power:.3f} with as many</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>with the first visit as covariate: power {with_baseline.power:.3f}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{entry!r}: give NAME=VALUE</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>the files of the school's store {name} lie elsewhere: give --objects as on the other stations</source>
@@ -20031,6 +20143,286 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{name} holds tables of another program ({table}): give the school's store a database of its own</source>
             <translation type="unfinished">{name} contient les tables d’un autre programme ({table}) : donnez à la base de l’école une base à elle</translation>
+        </message>
+        <message>
+            <source>the sealed list of allocations cannot be opened: it was made by another station, or is damaged; bring it back from a backup, with the station's key</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path}: stopping.until: {until} is past; nobody could be enrolled</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{study} has begun already: its list is sealed; another study needs another id</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>cannot write {folder}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file} is there already: give the study another id</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the assessor of {study} is blind, and the bundle shows the arms: lock the data first, `acus research lock`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>arm {arm} has no student: enrol some before the bundle</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a student's name or pseudonym stands in {file} of the bundle: take it out of the design or of the reasons for leaving; nothing was written</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path} cannot be read: {reason}; fetch it again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path} has no usable {file}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path} is no bundle of a research study</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path} has the form {form!r}; this version of Acus knows {known}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file} stands in no manifest</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{file} was changed after the bundle was made</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the list of allocations cannot be read: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the list of allocations is not the one that was committed to</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{participant} is not in the arm that the list gives</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>attempt {attempt}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>attempt {attempt}: {change}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>attempt {attempt}: its score in attempts.csv is another</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>block_sizes: simple randomisation has no blocks; leave them out</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>strata: {factor} needs two levels at least, each once</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>strata: {count} combinations; at most {most} are allowed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{exercise} has no effect {effect!r}; it has {effects}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>arm {arm}: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>arms: two are called {name!r}: give each a name of its own</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>arms: a study compares two at least</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>arms: {name!r} has ratio 0, so no student would be in it: give it 1 or more, or leave it out</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>participants: {n} are fewer than the arms' ratios need: at least {least}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>block_sizes: {size} does not fit arms of {ratios}: take a multiple of {unit}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>visits: two have one name</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>visits: the windows of {earlier} and {later} overlap, or stand in the wrong order</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>entry {place} of the study's ledger is not as it was written: bring the ledger back from a backup</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a mixed model needs two visits and two students in each arm at least</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} is {entry:g}; it must be {valid}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{n} students are too few: at least 4</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{most} students would be too few: the effect is too small beside the standard deviation</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>high: it must be greater than low</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>items: {name!r} stands there twice</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>scores: {score} has no item {name!r}; there are {names}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>scores: {score} needs weights</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{questionnaire}: no answer to {items}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{questionnaire} has no item {question!r}; it has {items}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{questionnaire}: {question} is {answer:g}; it must be {low:g} to {high:g}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{questionnaire}: weights are whole numbers from 0 to {most}, one for each item, {total} in all</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no questionnaire {name!r}; there are {names}, or give the path of a .yaml file</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path}: id: {id!r} must be the file's name</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path} has no row of answers</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{question}: {cell!r} is no number</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path} cannot be read: bring it back from a backup</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the design of {study} was changed after the study began: put it back as it was, or begin another study</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>who took the consent? give --consent-by</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} is enrolled already</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the list {label} is used up</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} is not in {study}, or has left it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} at {visit!r}: not enrolled, withdrawn, or no visit of {study}; its visits are {visits}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} has answered {questionnaire} at {visit} already</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>who locks the data? give --by</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the data were locked on {moment}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the data were locked on {moment}: nothing is added</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>all {n} participants of the design are enrolled</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>enrolment ended on {until}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>give --stratum {factor}=…, one of {levels}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{factor} is no stratum of {study}; it has {strata}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no study {name!r} has begun here; there: {known}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>its columns are not those of a series</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>its series cannot be read: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>its score cannot be read: {reason}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>its score follows rules {version}, unknown here</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>

@@ -229,3 +229,16 @@ def test_answers_are_entered_by_options_or_from_a_table_all_or_none(acus, begun,
         said = refused(acus, *words, "--student", name, "--visit", when, *options)
         assert reason in said
     assert "give --from FILE" in refused(acus, *words)
+
+
+def test_a_study_comes_back_from_a_backup_with_the_stations_key(acus, begun, monkeypatch, tmp_path):
+    recovery = People().set_instructor("correct horse")
+    monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")
+    one = acus("research", "enrol", NAME, "Ada", *CONSENT)
+    acus("store", "backup", "--out", tmp_path / "b")
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path / "another"))
+    monkeypatch.setattr("typer.prompt", lambda *_, **__: recovery)
+    acus("store", "restore", tmp_path / "b", "--key")
+    (found,) = acus("research", "status", NAME)["studies"]
+    assert [visit["code"] for visit in found["due"]] == [one["code"]]
+    assert acus("research", "enrol", NAME, "Bob", *CONSENT)["code"] != one["code"]
