@@ -1,4 +1,7 @@
-"""Which recorded attempts belong to a research study: whose, at which visit, on which arm."""
+"""Which recorded attempts belong to a research study, and the flow of participants they make.
+
+The flow is that of the diagram of CONSORT 2010 (Schulz et al., BMJ 340:c332).
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from app.core.progress import Progress
-from app.research.design import exercise_of
+from app.research.design import ResearchDesign, exercise_of
 from app.research.ledger import Participant, digest_of_person
 from app.research.research_study import ResearchStudy, days_between
 from app.session.index import Index, Indexed
@@ -74,3 +77,38 @@ def attempts_of(
         counts[place] += 1
         found.append(StudyAttempt(*place, day, counts[place], one))
     return sorted(found, key=lambda one: (one.participant, one.attempt.started))
+
+
+def consort_rows(
+    design: ResearchDesign,
+    participants: Sequence[Participant],
+    attempts: Sequence[StudyAttempt],
+) -> list[tuple[str, str, int]]:
+    """Return stage, arm and number of participants, over all arms and for each.
+
+    `randomised`, `began` (an attempt at least), `attended: VISIT`, `left`, `withdrawn` (of those
+    who left: their data are not used) and `analysed` (a scored attempt in the last visit's window).
+    Who was asked and not enrolled is not known here.
+    """
+    reached: dict[str, set[str]] = {"began": {one.participant for one in attempts}}
+    for visit in design.visits:
+        there = {one.participant for one in attempts if one.visit == visit.name}
+        reached[f"attended: {visit.name}"] = there
+    last = design.visits[-1].name
+    analysed = {
+        one.participant for one in attempts if one.visit == last and one.attempt.total is not None
+    }
+    stages = {
+        "randomised": {one.code for one in participants},
+        **reached,
+        "left": {one.code for one in participants if one.left},
+        "withdrawn": {one.code for one in participants if one.withdrawn},
+        "analysed": analysed,
+    }
+    arms = {one.code: one.arm for one in participants}
+    found = []
+    for stage, codes in stages.items():
+        found.append((stage, "all", len(codes)))
+        for arm in design.arms:
+            found.append((stage, arm.name, sum(arms[code] == arm.name for code in codes)))
+    return found

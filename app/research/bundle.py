@@ -35,11 +35,10 @@ from app.core.progress import Progress
 from app.core.words import printable
 from app.exercises.writing import exercise_text
 from app.research.allocation_list import allocation_lists, open_hidden
-from app.research.attempts import StudyAttempt, attempts_of
+from app.research.attempts import StudyAttempt, attempts_of, consort_rows
 from app.research.codebook import CODEBOOK, TABLES, codebook_rows, metric_rows
 from app.research.design import exercise_of
 from app.research.errors import ResearchError
-from app.research.flow import consort_rows
 from app.research.ledger import ANSWERED, Participant, participants_of
 from app.research.research_study import ResearchStudy, days_between
 from app.research.series import attempt_document, series_table

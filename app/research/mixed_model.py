@@ -28,7 +28,7 @@ _LEAST: Final = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Fit:
+class MixedFit:
     """Fits of S studies.
 
     Attributes:
@@ -46,8 +46,8 @@ class Fit:
     freedom: int
 
 
-def fit(values: FloatArray, second: FloatArray) -> Fit:
-    """Fit S studies that have the same students in the same arms.
+def fit(values: FloatArray, second: FloatArray) -> MixedFit:
+    """MixedFit S studies that have the same students in the same arms.
 
     Args:
         values: outcomes, shape (S, n, V): studies, students, visits; two visits at least.
@@ -96,7 +96,7 @@ def fit(values: FloatArray, second: FloatArray) -> Fit:
     inverse = np.linalg.inv(matrix)
     errors = np.sqrt(variance[:, None] * np.diagonal(inverse, axis1=1, axis2=2))
     between_variance = variance * (1.0 / w - 1.0) / visits
-    return Fit(
+    return MixedFit(
         found[:, visits:], errors[:, visits:], np.sqrt(between_variance), np.sqrt(variance), n - 2
     )
 

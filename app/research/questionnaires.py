@@ -40,8 +40,8 @@ class Item(Strict):
     reversed: bool = False
 
 
-class Weights(Strict):
-    """Weights that the student gives to the items.
+class ItemWeights(Strict):
+    """ItemWeights that the student gives to the items.
 
     Attributes:
         total: what they add up to.
@@ -94,7 +94,7 @@ class Questionnaire(Strict):
     high: float
     ends: tuple[str, str] = ("", "")
     items: Annotated[tuple[Item, ...], Field(min_length=1, max_length=200)]
-    weights: Weights | None = None
+    weights: ItemWeights | None = None
     scores: tuple[ScoreRule, ...] = ()
 
     @model_validator(mode="after")
@@ -186,7 +186,9 @@ class Questionnaire(Strict):
             self._check_weights(weights, self.weights, names)
         return weights
 
-    def _check_weights(self, weights: Mapping[str, float], rule: Weights, names: list[str]) -> None:
+    def _check_weights(
+        self, weights: Mapping[str, float], rule: ItemWeights, names: list[str]
+    ) -> None:
         whole = all(w == int(w) and 0 <= w <= rule.most for w in weights.values())
         if set(weights) != set(names) or not whole or sum(weights.values()) != rule.total:
             raise ResearchError(
