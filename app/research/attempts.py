@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 
 from app.core.progress import Progress
-from app.research.design import ResearchDesign, exercise_of
+from app.research.design import ResearchDesign
 from app.research.ledger import Participant, digest_of_person
 from app.research.research_study import ResearchStudy, days_between
 from app.session.index import Index, Indexed
@@ -59,7 +60,7 @@ def attempts_of(
     known = {key: by_person[digest] for key, digest in digests.items() if digest in by_person}
     if not known:
         return []
-    exercises = {arm.name: exercise_of(study.design, arm).id for arm in study.design.arms}
+    exercises = {arm.name: study.exercise(arm.name).id for arm in study.design.arms}
     index = Index(records)
     index.refresh(progress)
     counts: Counter[tuple[str, str]] = Counter()
@@ -69,7 +70,9 @@ def attempts_of(
         by_hand = one.conditions.by_person and not one.conditions.drill
         if not (one.stands and by_hand and one.exercise == exercises[person.arm]):
             continue
-        if one.started < person.enrolled or (person.left and one.started > person.left_on):
+        if one.time < datetime.fromisoformat(person.enrolled):
+            continue
+        if person.left and one.time > datetime.fromisoformat(person.left_on):
             continue
         day = days_between(person.enrolled, one.time.isoformat())
         visit = study.design.visit_of(day)

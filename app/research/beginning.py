@@ -25,6 +25,7 @@ from app.research.design import (
 from app.research.errors import ResearchError
 from app.research.research_study import (
     DESIGN,
+    EXERCISE,
     SEALED,
     Clock,
     ResearchStudy,
@@ -79,6 +80,7 @@ def begin(
             exercise = exercise_of(design, arm)
             if arm.changes_exercise:
                 write_exercise(paths.data() / "exercises" / f"{exercise.id}.yaml", exercise)
+            write_exercise(folder / EXERCISE.format(number=number), exercise)
             _course(design, number, arm, exercise).save(people.folder)
         write_atomically(folder / DESIGN, text)
         write_atomically(folder / SEALED, json.dumps(sealed, indent=1) + "\n")

@@ -37,7 +37,6 @@ from app.exercises.writing import exercise_text
 from app.research.allocation_list import allocation_lists, open_hidden
 from app.research.attempts import StudyAttempt, attempts_of, consort_rows
 from app.research.codebook import CODEBOOK, TABLES, codebook_rows, metric_rows
-from app.research.design import exercise_of
 from app.research.errors import ResearchError
 from app.research.ledger import ANSWERED, Participant, participants_of
 from app.research.research_study import ResearchStudy, days_between
@@ -301,7 +300,7 @@ def _documents(study: ResearchStudy, people: People) -> dict[str, bytes]:
         "README.txt": _README.encode(),
     }
     for arm in design.arms:
-        exercise = exercise_of(design, arm)
+        exercise = study.exercise(arm.name)
         files[f"exercises/{exercise.id}.yaml"] = _without_folders(exercise_text(exercise)).encode()
     return files
 

@@ -1,8 +1,8 @@
 """A research study that has begun: its folder, enrolment, leaving, and the lock of its data.
 
-The folder `research/<id>` in the user's data folder holds the design as it was begun, the sealed
-list and the ledger. An allocation is opened in the transaction that writes the enrolment, so that
-nobody sees one without its student.
+The folder `research/<id>` in the user's data folder holds the design and the arms' exercises as
+they were when it began, the sealed list and the ledger. An allocation is opened in the transaction
+that writes the enrolment, so that nobody sees one without its student.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ from typing import Any, Final
 from app.core import paths
 from app.core.files import read_at_most
 from app.core.messages import sentence
+from app.exercises.library import read_exercise
+from app.exercises.schema import Exercise
 from app.research.allocation_list import open_hidden, open_place
 from app.research.design import (
     NAME,
@@ -45,6 +47,7 @@ from app.session.station import StationKey
 
 DESIGN: Final = "design.yaml"
 SEALED: Final = "allocation.json"
+EXERCISE: Final = "exercise-{number}.yaml"
 _LARGEST_LIST: Final = 1 << 27
 
 Clock = Callable[[], datetime]
@@ -113,6 +116,15 @@ class ResearchStudy:
                 )
             )
         return dict(document)
+
+    def exercise(self, arm: str) -> Exercise:
+        """Return the exercise of an arm as it was when the study began.
+
+        Raises:
+            ConfigurationError: if its file cannot be used.
+        """
+        number = [one.name for one in self.design.arms].index(arm) + 1
+        return read_exercise(self.folder / EXERCISE.format(number=number))
 
     def participants(self) -> list[Participant]:
         """Return everybody who was enrolled, by code."""

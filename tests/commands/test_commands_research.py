@@ -64,6 +64,15 @@ def test_each_arm_gets_its_exercise_and_a_course_that_tells_no_arm(begun):
         assert "guided" not in course.title + course.id
 
 
+def test_the_exercise_of_an_arm_stays_what_it_was_when_the_study_began(begun):
+    study = find_study(NAME)
+    before = study.exercise("guided")
+    path = paths.data() / "exercises" / f"{NAME}-1.yaml"
+    path.write_text(path.read_text().replace("assistance: 0.7", "assistance: 0.2"))
+    assert load_exercise(before.id).assistance == 0.2
+    assert find_study(NAME).exercise("guided").assistance == before.assistance == 0.7
+
+
 def test_an_enrolled_student_takes_the_course_of_the_arm_and_no_other(acus, begun):
     one = acus("research", "enrol", NAME, "Ada", *CONSENT)
     assert People().find("Ada").groups == (one["course"],)
