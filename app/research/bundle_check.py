@@ -12,8 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from pydantic import ValidationError
-
 from app.core.configuration import parse_yaml
 from app.core.errors import AcusError
 from app.core.messages import sentence
@@ -22,7 +20,7 @@ from app.research.allocation_list import allocation_lists, commitment
 from app.research.bundle import FORM, MANIFEST
 from app.research.design import ResearchDesign
 from app.research.errors import ResearchError
-from app.research.series import differences
+from app.research.series import BROKEN, differences
 
 _LARGEST: Final = 1 << 28
 """Bytes of one file when it is unpacked."""
@@ -58,7 +56,7 @@ def check_bundle(path: Path, progress: Progress | None = None) -> BundleReport:
     try:
         with zipfile.ZipFile(path) as archive:
             return _checked(_Bundle(path, archive), progress)
-    except (OSError, zipfile.BadZipFile, NotImplementedError, RuntimeError) as error:
+    except (*BROKEN, zipfile.BadZipFile, NotImplementedError, RuntimeError) as error:
         raise ResearchError(
             sentence(
                 "{path} cannot be read: {reason}; fetch it again",
@@ -105,7 +103,7 @@ def _checked(bundle: _Bundle, progress: Progress) -> BundleReport:
         manifest = json.loads(raw)
         stated: Mapping[str, str] = dict(manifest["files"])
         study, form = str(manifest["study"]), manifest["form"]
-    except (ValueError, LookupError, TypeError) as error:
+    except BROKEN as error:
         raise ResearchError(
             sentence("{path} is no bundle of a research study", path=bundle.path.name)
         ) from error
@@ -140,7 +138,7 @@ def _hash_problems(bundle: _Bundle, stated: Mapping[str, str]) -> list[str]:
     for name, digest in stated.items():
         try:
             actual = hashlib.sha256(bundle.read(name)).hexdigest()
-        except (ResearchError, zipfile.BadZipFile) as error:
+        except (ResearchError, zipfile.BadZipFile, *BROKEN) as error:
             problems.append(sentence("{file}: {reason}", file=name, reason=error))
             continue
         if actual != digest:
@@ -156,7 +154,7 @@ def _allocation_problems(bundle: _Bundle) -> list[str]:
         stated = json.loads(bundle.read("allocation.json"))
         lists = allocation_lists(design, bytes.fromhex(stated["seed"]))
         committed = commitment(lists, bytes.fromhex(stated["nonce"])) == stated["commitment"]
-    except (AcusError, ValidationError, ValueError, LookupError, TypeError) as error:
+    except (AcusError, *BROKEN) as error:
         return [sentence("the list of allocations cannot be read: {reason}", reason=error)]
     problems: list[str] = []
     if not committed or lists != stated.get("lists"):
@@ -185,7 +183,7 @@ def _attempt_problems(bundle: _Bundle, row: Mapping[str, Any]) -> list[str]:
         document = json.loads(bundle.read(f"attempts/{name}.json"))
         found = differences(document, bundle.read(str(row["series"])))
         total = document["score"]["total"]
-    except (AcusError, ValueError, LookupError, TypeError, zipfile.BadZipFile) as error:
+    except (AcusError, zipfile.BadZipFile, *BROKEN) as error:
         return [sentence("attempt {attempt}: {reason}", attempt=name, reason=error)]
     lines: list[str] = [
         sentence("attempt {attempt}: {change}", attempt=name, change=change.sentence())

@@ -253,7 +253,12 @@ def read_answers(path: Path) -> list[dict[str, str]]:
         ) from error
     first = text.partition("\n")[0]
     separator = ";" if first.count(";") > first.count(",") else ","
-    rows = csv.DictReader(io.StringIO(text, newline=""), delimiter=separator, restval="")
+    try:
+        rows = list(csv.DictReader(io.StringIO(text, newline=""), delimiter=separator, restval=""))
+    except csv.Error as error:
+        raise ResearchError(
+            sentence("cannot read {path}: {reason}", path=path, reason=error)
+        ) from error
     found = [{str(k).strip(): str(v or "").strip() for k, v in row.items() if k} for row in rows]
     if not found:
         raise ResearchError(sentence("{path} has no row of answers", path=path))

@@ -11,12 +11,13 @@ import gzip
 import io
 import json
 import math
+import zlib
 from collections.abc import Mapping
 from dataclasses import asdict, is_dataclass
 from typing import Any, Final
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 from app.core.errors import AcusError
 from app.core.messages import sentence
@@ -67,6 +68,16 @@ _MARKS: Final[Mapping[str, Any]] = {
     "planned": TypeAdapter(JudgedPlan | None),
 }
 _NUMBERS: Final = ("excused", "agreement", "computer", "seen_from")
+
+
+BROKEN: Final = (
+    *(ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError),
+    *(OSError, EOFError, csv.Error, zlib.error),
+)
+"""What files that somebody else may have written raise where they are read."""
+
+_LARGEST: Final = 1 << 28
+"""Bytes of a series when it is unpacked."""
 
 
 def series_table(trajectory: Trajectory) -> bytes:
@@ -139,7 +150,7 @@ def trajectory_of(document: Mapping[str, Any], table: bytes) -> Trajectory:
         ResearchError: if they do not fit together, or are damaged.
     """
     try:
-        rows = list(csv.reader(io.StringIO(gzip.decompress(table).decode(), newline="")))
+        rows = list(csv.reader(io.StringIO(_unpacked(table).decode(), newline="")))
         if tuple(rows[0]) != SERIES:
             raise ValueError(sentence("its columns are not those of a series"))
         columns = dict(zip(SERIES, zip(*rows[1:], strict=True), strict=True))
@@ -188,7 +199,7 @@ def differences(document: Mapping[str, Any], table: bytes) -> list[Change]:
             for name, limits in document["tolerances"].items()
         }
         rules = ScoreRules.model_validate(document["rules"])
-    except (AcusError, ValidationError, LookupError, TypeError, AttributeError) as error:
+    except (AcusError, *BROKEN) as error:
         raise ResearchError(sentence("its score cannot be read: {reason}", reason=error)) from error
     if written.version not in KNOWN_VERSIONS:
         raise ResearchError(
@@ -196,9 +207,18 @@ def differences(document: Mapping[str, Any], table: bytes) -> list[Change]:
         )
     try:
         now, unscored = score(trajectory, tolerances, rules, written.version), ""
-    except AcusError as error:
+    except (AcusError, ArithmeticError) as error:
         now, unscored = None, str(error)
     return changes_between(written, now, unscored)
+
+
+def _unpacked(table: bytes) -> bytes:
+    """Unpack a series, if it is no larger than one may be."""
+    with gzip.GzipFile(fileobj=io.BytesIO(table)) as stream:
+        data = stream.read(_LARGEST + 1)
+    if len(data) > _LARGEST:
+        raise ValueError(sentence("it is too large"))
+    return data
 
 
 def _columns_of() -> dict[str, tuple[str, ...]]:

@@ -1,5 +1,6 @@
 """The bundle of a study: it names nobody, checks itself, and R and Python read it as it is."""
 
+import contextlib
 import csv
 import gzip
 import hashlib
@@ -276,6 +277,41 @@ def test_a_kept_record_gives_its_score_again_from_series_and_document_alone(path
     for name in ("tip", "axis", "felt", "hub", "guide", "target_shift", "spread", "clamped"):
         np.testing.assert_array_equal(getattr(again, name), getattr(trajectory, name))
     assert again.time[0] == 0.0
+
+
+def test_whatever_bytes_of_a_bundle_are_harmed_it_is_reported_or_refused(here, tmp_path):
+    data, rng = here.path.read_bytes(), np.random.default_rng(8)
+    path = tmp_path / "c.zip"
+    for at in rng.integers(0, len(data), 6).tolist():
+        harmed = bytearray(data)
+        harmed[at : at + 4] = rng.bytes(4)
+        path.write_bytes(harmed)
+        with contextlib.suppress(ResearchError):
+            check_bundle(path)
+
+
+def test_a_series_that_unpacks_to_more_than_one_may_be_is_refused(here, tmp_path, monkeypatch):
+    monkeypatch.setattr("app.research.series._LARGEST", 1000)
+    assert all("too large" in line for line in check_bundle(here.path).problems)
+
+
+def test_odd_values_in_the_files_of_an_attempt_are_problems_and_no_crash(here, tmp_path):
+    files = contents(here.path)
+    name = next(name for name in files if name.startswith("attempts/"))
+    document = json.loads(files[name])
+    for odd in (
+        document | {"score": None},
+        document | {"plan": []},
+        document | {"tolerances": {"target_error": {"x": 1}}},
+        document | {"numbers": {}},
+        document | {"arrays": []},
+        document | {"marks": document["marks"] | {"scans": [{"time": "x"}]}},
+        [],
+    ):
+        harmed = rewritten(here.path, tmp_path / "c.zip", {name: json.dumps(odd).encode()})
+        assert check_bundle(harmed).problems
+    deep = rewritten(here.path, tmp_path / "c.zip", {name: b"[" * 200_000})
+    assert check_bundle(deep).problems
 
 
 @pytest.fixture
