@@ -20424,5 +20424,9 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>its score follows rules {version}, unknown here</source>
             <translation type="unfinished">das Ergebnis folgt den Regeln {version}, hier unbekannt</translation>
         </message>
+        <message>
+            <source>it is too large</source>
+            <translation type="unfinished">sie ist zu groß</translation>
+        </message>
     </context>
 </TS>

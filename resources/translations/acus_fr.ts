@@ -20424,5 +20424,9 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>its score follows rules {version}, unknown here</source>
             <translation type="unfinished">son score suit les règles {version}, inconnues ici</translation>
         </message>
+        <message>
+            <source>it is too large</source>
+            <translation type="unfinished">elle est trop grande</translation>
+        </message>
     </context>
 </TS>
