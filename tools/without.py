@@ -89,6 +89,13 @@ PARTS: Final[Mapping[str, Part]] = {
         ),
         words=("AccuracyFeature",),
     ),
+    "research": Part(
+        (
+            *("app/research", "app/commands/research.py", "resources/research"),
+            *("docs/research.md", "tests/research", "tests/commands/test_commands_research.py"),
+        ),
+        tests=("tests/commands/test_commands_tree.py", "tests/commands/test_commands_people.py"),
+    ),
     "pacs": Part(
         (
             *("app/imaging/pacs", "app/views/pacs", "app/commands/pacs.py", "docs/pacs.md"),

@@ -183,12 +183,18 @@ def _members(folder: Path, people: People, scratch: Path) -> Iterator[tuple[str,
     for path in sorted(courses_folder(people.folder).glob("*.yaml")):
         yield f"people/courses/{path.name}", path
     yield from own_files()
+    for path in sorted((paths.data() / "research").glob("*/*")):
+        if path.suffix in (".yaml", ".json"):
+            yield f"research/{path.parent.name}/{path.name}", path
+        elif path.suffix == ".sqlite":
+            copy = scratch / "research" / path.parent.name / path.name
+            yield f"research/{path.parent.name}/{path.name}", _copied(path, copy)
 
 
 def _copied(path: Path, copy: Path) -> Path:
-    """Copy a list of people as it stands at one moment, for this user only."""
+    """Copy a database as it stands at one moment, for this user only."""
     step("copy", copy)
-    copy.parent.mkdir(mode=0o700)
+    copy.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     with (
         closing(sqlite3.connect(path, timeout=BUSY_SECONDS)) as source,
         closing(sqlite3.connect(copy)) as target,

@@ -25,7 +25,8 @@ _MEMBER: Final = re.compile(
     r"(records/(\.trash/)?[0-9A-Za-z][0-9A-Za-z._-]{0,63}\.(mcap|sig)"
     r"|people/(people\.sqlite|names\.json|courses/[a-z0-9-]+\.yaml)"
     r"|exercises/(profiles/)?[\w@][\w@.-]*"
-    r"|structures/([\w-][\w.-]*/){0,3}[\w-][\w.-]*)"
+    r"|structures/([\w-][\w.-]*/){0,3}[\w-][\w.-]*"
+    r"|research/[a-z0-9-]+/(design\.yaml|exercise-[0-9]+\.yaml|allocation\.json|ledger\.sqlite))"
 )
 _LARGEST_MANIFEST: Final = 1 << 26
 

@@ -184,7 +184,7 @@ def _restore(
         progress.report(number / len(at.manifest.files), name.rpartition("/")[2])
         if name.startswith("records/") and name.endswith(SUFFIX):
             _record(at, name, gone, frozenset(erased))
-        elif name.startswith(("exercises/", "structures/")):
+        elif name.startswith(("exercises/", "structures/", "research/")):
             _own_file(at, name)
     if there is not None:
         _people(at, there, replace_people)
@@ -227,7 +227,7 @@ def _student(record: Path) -> str:
 
 
 def _own_file(at: _Restoring, name: str) -> None:
-    """Prepare an exercise, its structures or a profile; one that is here is kept."""
+    """Prepare an exercise, its structures, a profile, a study; one that is here is kept."""
     target = paths.data() / name
     if not target.exists():
         at.steps.append(move(at.stage(name, paths.data()), target))

@@ -191,7 +191,7 @@ def verify(recording: Recording) -> Verification:
     changes = [Change(SCORE_FILE, unreadable, "a score")] if unreadable else []
     comparable = written is None or written.version in KNOWN_VERSIONS
     if comparable and (written is not None or now is not None):
-        changes += _changes(written, now, unscored)
+        changes += changes_between(written, now, unscored)
     return Verification(recording.id, written, now, unscored, tuple(changes), finished)
 
 
@@ -262,7 +262,14 @@ def judged_by(
     return {row.name: row.tolerance for row in written.rows if row.tolerance}, written.rules
 
 
-def _changes(written: Score | None, now: Score | None, unscored: str) -> list[Change]:
+def changes_between(written: Score | None, now: Score | None, unscored: str) -> list[Change]:
+    """Return what differs between the score that was written and the one that is computed now.
+
+    Args:
+        written: None without one.
+        now: None where there is none.
+        unscored: why.
+    """
     if written is None or now is None:
         return [
             Change("score", _points(written), _points(now) + (f" ({unscored})" if unscored else ""))

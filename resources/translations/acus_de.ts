@@ -20379,8 +20379,120 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{path} sagt nicht, wo der Speicher der Schule ist: diese Station mit `acus store connect URL` neu verbinden</translation>
         </message>
         <message>
+            <source>{file} is there already: give another name</source>
+            <translation type="unfinished">{file} gibt es schon: einen anderen Namen angeben</translation>
+        </message>
+        <message>
             <source>cannot write {path}: {reason}</source>
             <translation type="unfinished">{path} ist nicht zu schreiben: {reason}</translation>
+        </message>
+        <message>
+            <source>{files}: change it, then `acus research check {files.0}`</source>
+            <translation type="unfinished">{files}: anpassen, dann `acus research check {files.0}`</translation>
+        </message>
+        <message>
+            <source>{study}: {participants} participants in {arms}, {lists:#1 list|# lists}</source>
+            <translation type="unfinished">{study}: {participants} Teilnehmende in {arms}, {lists:#1 Liste|# Listen}</translation>
+        </message>
+        <message>
+            <source>in a list arms are never more than {imbalance} apart</source>
+            <translation type="unfinished">in einer Liste liegen die Arme nie mehr als {imbalance} auseinander</translation>
+        </message>
+        <message>
+            <source>{study} has begun: its list is sealed</source>
+            <translation type="unfinished">{study} hat begonnen: die Liste ist versiegelt</translation>
+        </message>
+        <message>
+            <source>commitment to register: {commitment}</source>
+            <translation type="unfinished">Prüfsumme zum Registrieren: {commitment}</translation>
+        </message>
+        <message>
+            <source>the student signed version {signed}; the study has version {version}</source>
+            <translation type="unfinished">unterschrieben wurde Fassung {signed}; die Studie hat Fassung {version}</translation>
+        </message>
+        <message>
+            <source>{code} is in arm {arm}: course {course}</source>
+            <translation type="unfinished">{code} ist im Arm {arm}: Kurs {course}</translation>
+        </message>
+        <message>
+            <source>give --from FILE, or --student, --visit and --answer</source>
+            <translation type="unfinished">--from DATEI angeben, oder --student, --visit und --answer</translation>
+        </message>
+        <message>
+            <source>  {key}: {value:.1f}</source>
+            <translation type="unfinished">  {key}: {value:.1f}</translation>
+        </message>
+        <message>
+            <source>{pseudonym} at {visit}</source>
+            <translation type="unfinished">{pseudonym} bei {visit}</translation>
+        </message>
+        <message>
+            <source>{code} has left{withdrawn:?; the data are not used|}</source>
+            <translation type="unfinished">{code} ist ausgeschieden{withdrawn:?; die Daten werden nicht verwendet|}</translation>
+        </message>
+        <message>
+            <source>  {pseudonym} ({code}): {visit} from {opens} to {closes}, {attempts} of {wanted} attempts{late:? — late|}</source>
+            <translation type="unfinished">  {pseudonym} ({code}): {visit} von {opens} bis {closes}, {attempts} von {wanted} Versuchen{late:? — spät|}</translation>
+        </message>
+        <message>
+            <source>{study}: {enrolled} of {participants} enrolled, {left} left</source>
+            <translation type="unfinished">{study}: {enrolled} von {participants} aufgenommen, {left} ausgeschieden</translation>
+        </message>
+        <message>
+            <source>  {arm}: {enrolled} enrolled</source>
+            <translation type="unfinished">  {arm}: {enrolled} aufgenommen</translation>
+        </message>
+        <message>
+            <source>{blind:?  arms are hidden until the data are locked|}</source>
+            <translation type="unfinished">{blind:?  die Arme bleiben verborgen, bis die Daten gesperrt sind|}</translation>
+        </message>
+        <message>
+            <source>{locked:?  the data were locked on {locked:@}|}</source>
+            <translation type="unfinished">{locked:?  die Daten wurden am {locked:@} gesperrt|}</translation>
+        </message>
+        <message>
+            <source>no study has begun here: `acus research new --out FILE` writes a design</source>
+            <translation type="unfinished">hier hat keine Studie begonnen: `acus research new --out FILE` schreibt einen Plan</translation>
+        </message>
+        <message>
+            <source>the data of {study} are locked</source>
+            <translation type="unfinished">die Daten von {study} sind gesperrt</translation>
+        </message>
+        <message>
+            <source>{participants:#1 participant|# participants}, {attempts:#1 attempt|# attempts} written to {files}</source>
+            <translation type="unfinished">{participants:#1 Teilnehmende Person|# Teilnehmende}, {attempts:#1 Versuch|# Versuche} nach {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>its digest, to be stated with the results: {digest}</source>
+            <translation type="unfinished">Prüfsumme, mit den Ergebnissen anzugeben: {digest}</translation>
+        </message>
+        <message>
+            <source>{study}: {files:#1 file|# files} as stated, {scores:#1 score|# scores} computed again</source>
+            <translation type="unfinished">{study}: {files:#1 Datei|# Dateien} wie angegeben, {scores:#1 Ergebnis|# Ergebnisse} nachgerechnet</translation>
+        </message>
+        <message>
+            <source>digest: {digest}</source>
+            <translation type="unfinished">Prüfsumme: {digest}</translation>
+        </message>
+        <message>
+            <source>{name} is {entry:g}: give {least:g} to {most:g}</source>
+            <translation type="unfinished">{name} ist {entry:g}: {least:g} bis {most:g} angeben</translation>
+        </message>
+        <message>
+            <source>{students} students, of whom {complete} stay: power {power:.3f} ± {power_error:.3f} by {simulations} simulated studies; the interval holds the effect in {coverage:.1%}</source>
+            <translation type="unfinished">{students} Studierende, von denen {complete} bleiben: Teststärke {power:.3f} ± {power_error:.3f} aus {simulations} simulierten Studien; das Intervall enthält den Effekt in {coverage:.1%}</translation>
+        </message>
+        <message>
+            <source>t test without baseline: power {t_test.power:.3f} with as many</source>
+            <translation type="unfinished">t-Test ohne Ausgangswert: Teststärke {t_test.power:.3f} mit ebenso vielen</translation>
+        </message>
+        <message>
+            <source>with the first visit as covariate: power {with_baseline.power:.3f}</source>
+            <translation type="unfinished">mit dem ersten Termin als Kovariate: Teststärke {with_baseline.power:.3f}</translation>
+        </message>
+        <message>
+            <source>{entry!r}: give NAME=VALUE</source>
+            <translation type="unfinished">{entry!r}: NAME=WERT angeben</translation>
         </message>
         <message>
             <source>the school's store {name} is not there: look whether its share is mounted; this station goes on and tries again</source>
@@ -20977,6 +21089,290 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{cost.price:?at {cost.price:g} an hour: {cost.money:.3g}|}</source>
             <translation type="unfinished">{cost.price:?bei {cost.price:g} je Stunde: {cost.money:.3g}|}</translation>
+        </message>
+        <message>
+            <source>the sealed list of allocations cannot be opened: it was made by another station, or is damaged; bring it back from a backup, with the station's key</source>
+            <translation type="unfinished">die versiegelte Zuteilungsliste lässt sich nicht öffnen: sie stammt von einer anderen Station oder ist beschädigt; aus einer Sicherung zurückholen, mit dem Schlüssel der Station</translation>
+        </message>
+        <message>
+            <source>{path}: stopping.until: {until} is past; nobody could be enrolled</source>
+            <translation type="unfinished">{path}: stopping.until: {until} ist vorbei; niemand könnte aufgenommen werden</translation>
+        </message>
+        <message>
+            <source>{study} has begun already: its list is sealed; another study needs another id</source>
+            <translation type="unfinished">{study} hat schon begonnen: die Liste ist versiegelt; eine andere Studie braucht eine andere id</translation>
+        </message>
+        <message>
+            <source>cannot write {folder}: {reason}</source>
+            <translation type="unfinished">{folder} lässt sich nicht schreiben: {reason}</translation>
+        </message>
+        <message>
+            <source>{file} is there already: give the study another id</source>
+            <translation type="unfinished">{file} gibt es schon: der Studie eine andere id geben</translation>
+        </message>
+        <message>
+            <source>the assessor of {study} is blind, and the bundle shows the arms: lock the data first, `acus research lock`</source>
+            <translation type="unfinished">{study} wird verblindet beurteilt, und das Paket zeigt die Arme: zuerst die Daten sperren, `acus research lock`</translation>
+        </message>
+        <message>
+            <source>arm {arm} has no student: enrol some before the bundle</source>
+            <translation type="unfinished">der Arm {arm} hat niemanden: vor dem Paket jemanden aufnehmen</translation>
+        </message>
+        <message>
+            <source>a student's name or pseudonym stands in {file} of the bundle: take it out of the design or of the reasons for leaving; nothing was written</source>
+            <translation type="unfinished">ein Name oder Pseudonym steht in {file} des Pakets: aus dem Plan oder den Gründen für das Ausscheiden entfernen; nichts wurde geschrieben</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read: {reason}; fetch it again</source>
+            <translation type="unfinished">{path} lässt sich nicht lesen: {reason}; noch einmal holen</translation>
+        </message>
+        <message>
+            <source>{path} has no usable {file}</source>
+            <translation type="unfinished">{path} enthält kein brauchbares {file}</translation>
+        </message>
+        <message>
+            <source>{path} is no bundle of a research study</source>
+            <translation type="unfinished">{path} ist kein Paket einer Forschungsstudie</translation>
+        </message>
+        <message>
+            <source>{path} has the form {form!r}; this version of Acus knows {known}</source>
+            <translation type="unfinished">{path} hat die Form {form!r}; diese Version von Acus kennt {known}</translation>
+        </message>
+        <message>
+            <source>{file} stands in no manifest</source>
+            <translation type="unfinished">{file} steht in keinem Verzeichnis des Pakets</translation>
+        </message>
+        <message>
+            <source>{file}: {reason}</source>
+            <translation type="unfinished">{file}: {reason}</translation>
+        </message>
+        <message>
+            <source>{file} was changed after the bundle was made</source>
+            <translation type="unfinished">{file} wurde verändert, nachdem das Paket geschrieben war</translation>
+        </message>
+        <message>
+            <source>the list of allocations cannot be read: {reason}</source>
+            <translation type="unfinished">die Zuteilungsliste lässt sich nicht lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>the list of allocations is not the one that was committed to</source>
+            <translation type="unfinished">die Zuteilungsliste ist nicht die, deren Prüfsumme festgelegt wurde</translation>
+        </message>
+        <message>
+            <source>{participant} is not in the arm that the list gives</source>
+            <translation type="unfinished">{participant} ist nicht in dem Arm, den die Liste angibt</translation>
+        </message>
+        <message>
+            <source>attempt {attempt}: {reason}</source>
+            <translation type="unfinished">Versuch {attempt}: {reason}</translation>
+        </message>
+        <message>
+            <source>attempt {attempt}: {change}</source>
+            <translation type="unfinished">Versuch {attempt}: {change}</translation>
+        </message>
+        <message>
+            <source>attempt {attempt}: its score in attempts.csv is another</source>
+            <translation type="unfinished">Versuch {attempt}: in attempts.csv steht ein anderes Ergebnis</translation>
+        </message>
+        <message>
+            <source>block_sizes: simple randomisation has no blocks; leave them out</source>
+            <translation type="unfinished">block_sizes: einfache Randomisierung hat keine Blöcke; weglassen</translation>
+        </message>
+        <message>
+            <source>strata: {factor} needs two levels at least, each once</source>
+            <translation type="unfinished">strata: {factor} braucht mindestens zwei Stufen, jede einmal</translation>
+        </message>
+        <message>
+            <source>strata: {count} combinations; at most {most} are allowed</source>
+            <translation type="unfinished">strata: {count} Kombinationen; höchstens {most} sind erlaubt</translation>
+        </message>
+        <message>
+            <source>{exercise} has no effect {effect!r}; it has {effects}</source>
+            <translation type="unfinished">{exercise} hat keinen Effekt {effect!r}; es gibt {effects}</translation>
+        </message>
+        <message>
+            <source>arm {arm}: {reason}</source>
+            <translation type="unfinished">Arm {arm}: {reason}</translation>
+        </message>
+        <message>
+            <source>arms: two are called {name!r}: give each a name of its own</source>
+            <translation type="unfinished">arms: zwei heißen {name!r}: jedem einen eigenen Namen geben</translation>
+        </message>
+        <message>
+            <source>arms: a study compares two at least</source>
+            <translation type="unfinished">arms: eine Studie vergleicht mindestens zwei</translation>
+        </message>
+        <message>
+            <source>arms: {name!r} has ratio 0, so no student would be in it: give it 1 or more, or leave it out</source>
+            <translation type="unfinished">arms: {name!r} hat das Verhältnis 0, also wäre niemand darin: 1 oder mehr angeben oder weglassen</translation>
+        </message>
+        <message>
+            <source>participants: {n} are fewer than the arms' ratios need: at least {least}</source>
+            <translation type="unfinished">participants: {n} sind weniger, als die Verhältnisse der Arme brauchen: mindestens {least}</translation>
+        </message>
+        <message>
+            <source>block_sizes: {size} does not fit arms of {ratios}: take a multiple of {unit}</source>
+            <translation type="unfinished">block_sizes: {size} passt nicht zu Armen von {ratios}: ein Vielfaches von {unit} nehmen</translation>
+        </message>
+        <message>
+            <source>visits: two have one name</source>
+            <translation type="unfinished">visits: zwei haben denselben Namen</translation>
+        </message>
+        <message>
+            <source>visits: the windows of {earlier} and {later} overlap, or stand in the wrong order</source>
+            <translation type="unfinished">visits: die Fenster von {earlier} und {later} überschneiden sich oder stehen in falscher Reihenfolge</translation>
+        </message>
+        <message>
+            <source>entry {place} of the study's ledger is not as it was written: bring the ledger back from a backup</source>
+            <translation type="unfinished">Eintrag {place} des Studienbuchs ist nicht mehr, wie er geschrieben wurde: das Buch aus einer Sicherung zurückholen</translation>
+        </message>
+        <message>
+            <source>a mixed model needs two visits and two students in each arm at least</source>
+            <translation type="unfinished">ein gemischtes Modell braucht mindestens zwei Termine und zwei Studierende je Arm</translation>
+        </message>
+        <message>
+            <source>{name} is {entry:g}; it must be {valid}</source>
+            <translation type="unfinished">{name} ist {entry:g}; gültig: {valid}</translation>
+        </message>
+        <message>
+            <source>{n} students are too few: at least 4</source>
+            <translation type="unfinished">{n} Studierende sind zu wenige: mindestens 4</translation>
+        </message>
+        <message>
+            <source>{most} students would be too few: the effect is too small beside the standard deviation</source>
+            <translation type="unfinished">{most} Studierende wären zu wenige: der Effekt ist zu klein neben der Standardabweichung</translation>
+        </message>
+        <message>
+            <source>high: it must be greater than low</source>
+            <translation type="unfinished">high: muss größer sein als low</translation>
+        </message>
+        <message>
+            <source>items: {name!r} stands there twice</source>
+            <translation type="unfinished">items: {name!r} steht zweimal da</translation>
+        </message>
+        <message>
+            <source>scores: {score} has no item {name!r}; there are {names}</source>
+            <translation type="unfinished">scores: {score} hat keine Frage {name!r}; es gibt {names}</translation>
+        </message>
+        <message>
+            <source>scores: {score} needs weights</source>
+            <translation type="unfinished">scores: {score} braucht Gewichte</translation>
+        </message>
+        <message>
+            <source>{questionnaire}: no answer to {items}</source>
+            <translation type="unfinished">{questionnaire}: keine Antwort auf {items}</translation>
+        </message>
+        <message>
+            <source>{questionnaire} has no item {question!r}; it has {items}</source>
+            <translation type="unfinished">{questionnaire} hat keine Frage {question!r}; es gibt {items}</translation>
+        </message>
+        <message>
+            <source>{questionnaire}: {question} is {answer:g}; it must be {low:g} to {high:g}</source>
+            <translation type="unfinished">{questionnaire}: {question} ist {answer:g}; gültig ist {low:g} bis {high:g}</translation>
+        </message>
+        <message>
+            <source>{questionnaire}: weights are whole numbers from 0 to {most}, one for each item, {total} in all</source>
+            <translation type="unfinished">{questionnaire}: Gewichte sind ganze Zahlen von 0 bis {most}, eines je Frage, zusammen {total}</translation>
+        </message>
+        <message>
+            <source>no questionnaire {name!r}; there are {names}, or give the path of a .yaml file</source>
+            <translation type="unfinished">kein Fragebogen {name!r}; es gibt {names}, oder den Pfad einer .yaml-Datei angeben</translation>
+        </message>
+        <message>
+            <source>{path}: id: {id!r} must be the file's name</source>
+            <translation type="unfinished">{path}: id: {id!r} muss der Name der Datei sein</translation>
+        </message>
+        <message>
+            <source>{path} has no row of answers</source>
+            <translation type="unfinished">{path} hat keine Zeile mit Antworten</translation>
+        </message>
+        <message>
+            <source>{question}: {cell!r} is no number</source>
+            <translation type="unfinished">{question}: {cell!r} ist keine Zahl</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read: bring it back from a backup</source>
+            <translation type="unfinished">{path} lässt sich nicht lesen: aus einer Sicherung zurückholen</translation>
+        </message>
+        <message>
+            <source>the design of {study} was changed after the study began: put it back as it was, or begin another study</source>
+            <translation type="unfinished">der Plan von {study} wurde nach Beginn der Studie verändert: zurückstellen, wie er war, oder eine andere Studie beginnen</translation>
+        </message>
+        <message>
+            <source>who took the consent? give --consent-by</source>
+            <translation type="unfinished">wer hat die Einwilligung eingeholt? --consent-by angeben</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is enrolled already</source>
+            <translation type="unfinished">{pseudonym} ist schon aufgenommen</translation>
+        </message>
+        <message>
+            <source>the list {label} is used up</source>
+            <translation type="unfinished">die Liste {label} ist aufgebraucht</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is not in {study}, or has left it</source>
+            <translation type="unfinished">{pseudonym} ist nicht in {study} oder ist ausgeschieden</translation>
+        </message>
+        <message>
+            <source>{pseudonym} at {visit!r}: not enrolled, withdrawn, or no visit of {study}; its visits are {visits}</source>
+            <translation type="unfinished">{pseudonym} bei {visit!r}: nicht aufgenommen, zurückgezogen, oder kein Termin von {study}; die Termine sind {visits}</translation>
+        </message>
+        <message>
+            <source>{pseudonym} has answered {questionnaire} at {visit} already</source>
+            <translation type="unfinished">{pseudonym} hat {questionnaire} bei {visit} schon beantwortet</translation>
+        </message>
+        <message>
+            <source>who locks the data? give --by</source>
+            <translation type="unfinished">wer sperrt die Daten? --by angeben</translation>
+        </message>
+        <message>
+            <source>the data were locked on {moment}</source>
+            <translation type="unfinished">die Daten wurden am {moment} gesperrt</translation>
+        </message>
+        <message>
+            <source>the data were locked on {moment}: nothing is added</source>
+            <translation type="unfinished">die Daten wurden am {moment} gesperrt: nichts kommt mehr dazu</translation>
+        </message>
+        <message>
+            <source>all {n} participants of the design are enrolled</source>
+            <translation type="unfinished">alle {n} Teilnehmenden des Plans sind aufgenommen</translation>
+        </message>
+        <message>
+            <source>enrolment ended on {until}</source>
+            <translation type="unfinished">die Aufnahme endete am {until}</translation>
+        </message>
+        <message>
+            <source>give --stratum {factor}=…, one of {levels}</source>
+            <translation type="unfinished">--stratum {factor}=… angeben, eines von {levels}</translation>
+        </message>
+        <message>
+            <source>{factor} is no stratum of {study}; it has {strata}</source>
+            <translation type="unfinished">{factor} ist kein Stratum von {study}; es gibt {strata}</translation>
+        </message>
+        <message>
+            <source>no study {name!r} has begun here; there: {known}</source>
+            <translation type="unfinished">hier hat keine Studie {name!r} begonnen; es gibt: {known}</translation>
+        </message>
+        <message>
+            <source>its columns are not those of a series</source>
+            <translation type="unfinished">die Spalten sind nicht die einer Reihe</translation>
+        </message>
+        <message>
+            <source>its series cannot be read: {reason}</source>
+            <translation type="unfinished">die Reihe lässt sich nicht lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>its score cannot be read: {reason}</source>
+            <translation type="unfinished">das Ergebnis lässt sich nicht lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>its score follows rules {version}, unknown here</source>
+            <translation type="unfinished">das Ergebnis folgt den Regeln {version}, hier unbekannt</translation>
+        </message>
+        <message>
+            <source>it is too large</source>
+            <translation type="unfinished">sie ist zu groß</translation>
         </message>
     </context>
 </TS>

@@ -20379,8 +20379,120 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{path} ne dit pas où est la base de l’école : reconnectez ce poste avec `acus store connect URL`</translation>
         </message>
         <message>
+            <source>{file} is there already: give another name</source>
+            <translation type="unfinished">{file} existe déjà : donner un autre nom</translation>
+        </message>
+        <message>
             <source>cannot write {path}: {reason}</source>
             <translation type="unfinished">impossible d’écrire {path} : {reason}</translation>
+        </message>
+        <message>
+            <source>{files}: change it, then `acus research check {files.0}`</source>
+            <translation type="unfinished">{files} : à adapter, puis `acus research check {files.0}`</translation>
+        </message>
+        <message>
+            <source>{study}: {participants} participants in {arms}, {lists:#1 list|# lists}</source>
+            <translation type="unfinished">{study} : {participants} participants dans {arms}, {lists:#1 liste|# listes}</translation>
+        </message>
+        <message>
+            <source>in a list arms are never more than {imbalance} apart</source>
+            <translation type="unfinished">dans une liste, les bras ne s’écartent jamais de plus de {imbalance}</translation>
+        </message>
+        <message>
+            <source>{study} has begun: its list is sealed</source>
+            <translation type="unfinished">{study} a commencé : sa liste est scellée</translation>
+        </message>
+        <message>
+            <source>commitment to register: {commitment}</source>
+            <translation type="unfinished">empreinte à enregistrer : {commitment}</translation>
+        </message>
+        <message>
+            <source>the student signed version {signed}; the study has version {version}</source>
+            <translation type="unfinished">l’étudiant a signé la version {signed} ; l’étude a la version {version}</translation>
+        </message>
+        <message>
+            <source>{code} is in arm {arm}: course {course}</source>
+            <translation type="unfinished">{code} est dans le bras {arm} : cours {course}</translation>
+        </message>
+        <message>
+            <source>give --from FILE, or --student, --visit and --answer</source>
+            <translation type="unfinished">donner --from FICHIER, ou --student, --visit et --answer</translation>
+        </message>
+        <message>
+            <source>  {key}: {value:.1f}</source>
+            <translation type="unfinished">  {key} : {value:.1f}</translation>
+        </message>
+        <message>
+            <source>{pseudonym} at {visit}</source>
+            <translation type="unfinished">{pseudonym} à {visit}</translation>
+        </message>
+        <message>
+            <source>{code} has left{withdrawn:?; the data are not used|}</source>
+            <translation type="unfinished">{code} a quitté l’étude{withdrawn:? ; les données ne sont pas utilisées|}</translation>
+        </message>
+        <message>
+            <source>  {pseudonym} ({code}): {visit} from {opens} to {closes}, {attempts} of {wanted} attempts{late:? — late|}</source>
+            <translation type="unfinished">  {pseudonym} ({code}) : {visit} du {opens} au {closes}, {attempts} essais sur {wanted}{late:? — en retard|}</translation>
+        </message>
+        <message>
+            <source>{study}: {enrolled} of {participants} enrolled, {left} left</source>
+            <translation type="unfinished">{study} : {enrolled} inclus sur {participants}, {left} sortis</translation>
+        </message>
+        <message>
+            <source>  {arm}: {enrolled} enrolled</source>
+            <translation type="unfinished">  {arm} : {enrolled} inclus</translation>
+        </message>
+        <message>
+            <source>{blind:?  arms are hidden until the data are locked|}</source>
+            <translation type="unfinished">{blind:?  les bras restent cachés jusqu’au verrouillage des données|}</translation>
+        </message>
+        <message>
+            <source>{locked:?  the data were locked on {locked:@}|}</source>
+            <translation type="unfinished">{locked:?  les données ont été verrouillées le {locked:@}|}</translation>
+        </message>
+        <message>
+            <source>no study has begun here: `acus research new --out FILE` writes a design</source>
+            <translation type="unfinished">aucune étude n’a commencé ici : `acus research new --out FILE` écrit un plan</translation>
+        </message>
+        <message>
+            <source>the data of {study} are locked</source>
+            <translation type="unfinished">les données de {study} sont verrouillées</translation>
+        </message>
+        <message>
+            <source>{participants:#1 participant|# participants}, {attempts:#1 attempt|# attempts} written to {files}</source>
+            <translation type="unfinished">{participants:#1 participant|# participants}, {attempts:#1 essai|# essais} écrits dans {files}</translation>
+        </message>
+        <message>
+            <source>its digest, to be stated with the results: {digest}</source>
+            <translation type="unfinished">son empreinte, à indiquer avec les résultats : {digest}</translation>
+        </message>
+        <message>
+            <source>{study}: {files:#1 file|# files} as stated, {scores:#1 score|# scores} computed again</source>
+            <translation type="unfinished">{study} : {files:#1 fichier conforme|# fichiers conformes}, {scores:#1 score recalculé|# scores recalculés}</translation>
+        </message>
+        <message>
+            <source>digest: {digest}</source>
+            <translation type="unfinished">empreinte : {digest}</translation>
+        </message>
+        <message>
+            <source>{name} is {entry:g}: give {least:g} to {most:g}</source>
+            <translation type="unfinished">{name} vaut {entry:g} : donner de {least:g} à {most:g}</translation>
+        </message>
+        <message>
+            <source>{students} students, of whom {complete} stay: power {power:.3f} ± {power_error:.3f} by {simulations} simulated studies; the interval holds the effect in {coverage:.1%}</source>
+            <translation type="unfinished">{students} étudiants, dont {complete} restent : puissance {power:.3f} ± {power_error:.3f} par {simulations} études simulées ; l’intervalle contient l’effet dans {coverage:.1%}</translation>
+        </message>
+        <message>
+            <source>t test without baseline: power {t_test.power:.3f} with as many</source>
+            <translation type="unfinished">test t sans mesure initiale : puissance {t_test.power:.3f} avec autant d’étudiants</translation>
+        </message>
+        <message>
+            <source>with the first visit as covariate: power {with_baseline.power:.3f}</source>
+            <translation type="unfinished">avec la première visite comme covariable : puissance {with_baseline.power:.3f}</translation>
+        </message>
+        <message>
+            <source>{entry!r}: give NAME=VALUE</source>
+            <translation type="unfinished">{entry!r} : donner NOM=VALEUR</translation>
         </message>
         <message>
             <source>the school's store {name} is not there: look whether its share is mounted; this station goes on and tries again</source>
@@ -20977,6 +21089,290 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{cost.price:?at {cost.price:g} an hour: {cost.money:.3g}|}</source>
             <translation type="unfinished">{cost.price:?à {cost.price:g} l’heure : {cost.money:.3g}|}</translation>
+        </message>
+        <message>
+            <source>the sealed list of allocations cannot be opened: it was made by another station, or is damaged; bring it back from a backup, with the station's key</source>
+            <translation type="unfinished">la liste d’attribution scellée ne s’ouvre pas : elle vient d’une autre station ou est abîmée ; la reprendre d’une sauvegarde, avec la clé de la station</translation>
+        </message>
+        <message>
+            <source>{path}: stopping.until: {until} is past; nobody could be enrolled</source>
+            <translation type="unfinished">{path} : stopping.until : {until} est passé ; personne ne pourrait être inclus</translation>
+        </message>
+        <message>
+            <source>{study} has begun already: its list is sealed; another study needs another id</source>
+            <translation type="unfinished">{study} a déjà commencé : sa liste est scellée ; une autre étude demande une autre id</translation>
+        </message>
+        <message>
+            <source>cannot write {folder}: {reason}</source>
+            <translation type="unfinished">impossible d’écrire {folder} : {reason}</translation>
+        </message>
+        <message>
+            <source>{file} is there already: give the study another id</source>
+            <translation type="unfinished">{file} existe déjà : donner une autre id à l’étude</translation>
+        </message>
+        <message>
+            <source>the assessor of {study} is blind, and the bundle shows the arms: lock the data first, `acus research lock`</source>
+            <translation type="unfinished">l’évaluateur de {study} est en aveugle, et le paquet montre les bras : verrouiller d’abord les données, `acus research lock`</translation>
+        </message>
+        <message>
+            <source>arm {arm} has no student: enrol some before the bundle</source>
+            <translation type="unfinished">le bras {arm} n’a aucun étudiant : en inclure avant le paquet</translation>
+        </message>
+        <message>
+            <source>a student's name or pseudonym stands in {file} of the bundle: take it out of the design or of the reasons for leaving; nothing was written</source>
+            <translation type="unfinished">un nom ou un pseudonyme figure dans {file} du paquet : le retirer du plan ou des raisons de sortie ; rien n’a été écrit</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read: {reason}; fetch it again</source>
+            <translation type="unfinished">{path} est illisible : {reason} ; le chercher à nouveau</translation>
+        </message>
+        <message>
+            <source>{path} has no usable {file}</source>
+            <translation type="unfinished">{path} ne contient pas de {file} utilisable</translation>
+        </message>
+        <message>
+            <source>{path} is no bundle of a research study</source>
+            <translation type="unfinished">{path} n’est pas le paquet d’une étude</translation>
+        </message>
+        <message>
+            <source>{path} has the form {form!r}; this version of Acus knows {known}</source>
+            <translation type="unfinished">{path} a la forme {form!r} ; cette version d’Acus connaît {known}</translation>
+        </message>
+        <message>
+            <source>{file} stands in no manifest</source>
+            <translation type="unfinished">{file} n’est pas dans l’inventaire</translation>
+        </message>
+        <message>
+            <source>{file}: {reason}</source>
+            <translation type="unfinished">{file} : {reason}</translation>
+        </message>
+        <message>
+            <source>{file} was changed after the bundle was made</source>
+            <translation type="unfinished">{file} a été modifié après la création du paquet</translation>
+        </message>
+        <message>
+            <source>the list of allocations cannot be read: {reason}</source>
+            <translation type="unfinished">la liste d’attribution est illisible : {reason}</translation>
+        </message>
+        <message>
+            <source>the list of allocations is not the one that was committed to</source>
+            <translation type="unfinished">la liste d’attribution n’est pas celle dont l’empreinte a été enregistrée</translation>
+        </message>
+        <message>
+            <source>{participant} is not in the arm that the list gives</source>
+            <translation type="unfinished">{participant} n’est pas dans le bras que donne la liste</translation>
+        </message>
+        <message>
+            <source>attempt {attempt}: {reason}</source>
+            <translation type="unfinished">essai {attempt} : {reason}</translation>
+        </message>
+        <message>
+            <source>attempt {attempt}: {change}</source>
+            <translation type="unfinished">essai {attempt} : {change}</translation>
+        </message>
+        <message>
+            <source>attempt {attempt}: its score in attempts.csv is another</source>
+            <translation type="unfinished">essai {attempt} : son score dans attempts.csv est différent</translation>
+        </message>
+        <message>
+            <source>block_sizes: simple randomisation has no blocks; leave them out</source>
+            <translation type="unfinished">block_sizes : une randomisation simple n’a pas de blocs ; les omettre</translation>
+        </message>
+        <message>
+            <source>strata: {factor} needs two levels at least, each once</source>
+            <translation type="unfinished">strata : {factor} demande au moins deux niveaux, chacun une fois</translation>
+        </message>
+        <message>
+            <source>strata: {count} combinations; at most {most} are allowed</source>
+            <translation type="unfinished">strata : {count} combinaisons ; {most} au plus sont permises</translation>
+        </message>
+        <message>
+            <source>{exercise} has no effect {effect!r}; it has {effects}</source>
+            <translation type="unfinished">{exercise} n’a pas d’effet {effect!r} ; il y a {effects}</translation>
+        </message>
+        <message>
+            <source>arm {arm}: {reason}</source>
+            <translation type="unfinished">bras {arm} : {reason}</translation>
+        </message>
+        <message>
+            <source>arms: two are called {name!r}: give each a name of its own</source>
+            <translation type="unfinished">arms : deux s’appellent {name!r} : donner à chacun son nom</translation>
+        </message>
+        <message>
+            <source>arms: a study compares two at least</source>
+            <translation type="unfinished">arms : une étude en compare au moins deux</translation>
+        </message>
+        <message>
+            <source>arms: {name!r} has ratio 0, so no student would be in it: give it 1 or more, or leave it out</source>
+            <translation type="unfinished">arms : {name!r} a le rapport 0, donc aucun étudiant : donner 1 ou plus, ou le retirer</translation>
+        </message>
+        <message>
+            <source>participants: {n} are fewer than the arms' ratios need: at least {least}</source>
+            <translation type="unfinished">participants : {n} est moins que ce que demandent les rapports des bras : au moins {least}</translation>
+        </message>
+        <message>
+            <source>block_sizes: {size} does not fit arms of {ratios}: take a multiple of {unit}</source>
+            <translation type="unfinished">block_sizes : {size} ne convient pas à des bras de {ratios} : prendre un multiple de {unit}</translation>
+        </message>
+        <message>
+            <source>visits: two have one name</source>
+            <translation type="unfinished">visits : deux ont le même nom</translation>
+        </message>
+        <message>
+            <source>visits: the windows of {earlier} and {later} overlap, or stand in the wrong order</source>
+            <translation type="unfinished">visits : les fenêtres de {earlier} et {later} se chevauchent, ou sont dans le mauvais ordre</translation>
+        </message>
+        <message>
+            <source>entry {place} of the study's ledger is not as it was written: bring the ledger back from a backup</source>
+            <translation type="unfinished">l’entrée {place} du registre de l’étude n’est plus telle qu’elle a été écrite : reprendre le registre d’une sauvegarde</translation>
+        </message>
+        <message>
+            <source>a mixed model needs two visits and two students in each arm at least</source>
+            <translation type="unfinished">un modèle mixte demande au moins deux visites et deux étudiants par bras</translation>
+        </message>
+        <message>
+            <source>{name} is {entry:g}; it must be {valid}</source>
+            <translation type="unfinished">{name} vaut {entry:g} ; valable : {valid}</translation>
+        </message>
+        <message>
+            <source>{n} students are too few: at least 4</source>
+            <translation type="unfinished">{n} étudiants, c’est trop peu : au moins 4</translation>
+        </message>
+        <message>
+            <source>{most} students would be too few: the effect is too small beside the standard deviation</source>
+            <translation type="unfinished">{most} étudiants seraient trop peu : l’effet est trop petit à côté de l’écart type</translation>
+        </message>
+        <message>
+            <source>high: it must be greater than low</source>
+            <translation type="unfinished">high : doit être plus grand que low</translation>
+        </message>
+        <message>
+            <source>items: {name!r} stands there twice</source>
+            <translation type="unfinished">items : {name!r} y figure deux fois</translation>
+        </message>
+        <message>
+            <source>scores: {score} has no item {name!r}; there are {names}</source>
+            <translation type="unfinished">scores : {score} n’a pas de question {name!r} ; il y a {names}</translation>
+        </message>
+        <message>
+            <source>scores: {score} needs weights</source>
+            <translation type="unfinished">scores : {score} demande des poids</translation>
+        </message>
+        <message>
+            <source>{questionnaire}: no answer to {items}</source>
+            <translation type="unfinished">{questionnaire} : pas de réponse à {items}</translation>
+        </message>
+        <message>
+            <source>{questionnaire} has no item {question!r}; it has {items}</source>
+            <translation type="unfinished">{questionnaire} n’a pas de question {question!r} ; il y a {items}</translation>
+        </message>
+        <message>
+            <source>{questionnaire}: {question} is {answer:g}; it must be {low:g} to {high:g}</source>
+            <translation type="unfinished">{questionnaire} : {question} vaut {answer:g} ; valable de {low:g} à {high:g}</translation>
+        </message>
+        <message>
+            <source>{questionnaire}: weights are whole numbers from 0 to {most}, one for each item, {total} in all</source>
+            <translation type="unfinished">{questionnaire} : les poids sont des nombres entiers de 0 à {most}, un par question, {total} en tout</translation>
+        </message>
+        <message>
+            <source>no questionnaire {name!r}; there are {names}, or give the path of a .yaml file</source>
+            <translation type="unfinished">pas de questionnaire {name!r} ; il y a {names}, ou donner le chemin d’un fichier .yaml</translation>
+        </message>
+        <message>
+            <source>{path}: id: {id!r} must be the file's name</source>
+            <translation type="unfinished">{path} : id : {id!r} doit être le nom du fichier</translation>
+        </message>
+        <message>
+            <source>{path} has no row of answers</source>
+            <translation type="unfinished">{path} n’a aucune ligne de réponses</translation>
+        </message>
+        <message>
+            <source>{question}: {cell!r} is no number</source>
+            <translation type="unfinished">{question} : {cell!r} n’est pas un nombre</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read: bring it back from a backup</source>
+            <translation type="unfinished">{path} est illisible : le reprendre d’une sauvegarde</translation>
+        </message>
+        <message>
+            <source>the design of {study} was changed after the study began: put it back as it was, or begin another study</source>
+            <translation type="unfinished">le plan de {study} a été modifié après le début de l’étude : le remettre comme il était, ou commencer une autre étude</translation>
+        </message>
+        <message>
+            <source>who took the consent? give --consent-by</source>
+            <translation type="unfinished">qui a recueilli le consentement ? donner --consent-by</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is enrolled already</source>
+            <translation type="unfinished">{pseudonym} est déjà inclus</translation>
+        </message>
+        <message>
+            <source>the list {label} is used up</source>
+            <translation type="unfinished">la liste {label} est épuisée</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is not in {study}, or has left it</source>
+            <translation type="unfinished">{pseudonym} n’est pas dans {study}, ou l’a quittée</translation>
+        </message>
+        <message>
+            <source>{pseudonym} at {visit!r}: not enrolled, withdrawn, or no visit of {study}; its visits are {visits}</source>
+            <translation type="unfinished">{pseudonym} à {visit!r} : pas inclus, retiré, ou pas une visite de {study} ; ses visites sont {visits}</translation>
+        </message>
+        <message>
+            <source>{pseudonym} has answered {questionnaire} at {visit} already</source>
+            <translation type="unfinished">{pseudonym} a déjà répondu à {questionnaire} à {visit}</translation>
+        </message>
+        <message>
+            <source>who locks the data? give --by</source>
+            <translation type="unfinished">qui verrouille les données ? donner --by</translation>
+        </message>
+        <message>
+            <source>the data were locked on {moment}</source>
+            <translation type="unfinished">les données ont été verrouillées le {moment}</translation>
+        </message>
+        <message>
+            <source>the data were locked on {moment}: nothing is added</source>
+            <translation type="unfinished">les données ont été verrouillées le {moment} : rien n’est ajouté</translation>
+        </message>
+        <message>
+            <source>all {n} participants of the design are enrolled</source>
+            <translation type="unfinished">les {n} participants du plan sont tous inclus</translation>
+        </message>
+        <message>
+            <source>enrolment ended on {until}</source>
+            <translation type="unfinished">l’inclusion s’est terminée le {until}</translation>
+        </message>
+        <message>
+            <source>give --stratum {factor}=…, one of {levels}</source>
+            <translation type="unfinished">donner --stratum {factor}=…, l’un de {levels}</translation>
+        </message>
+        <message>
+            <source>{factor} is no stratum of {study}; it has {strata}</source>
+            <translation type="unfinished">{factor} n’est pas une strate de {study} ; il y a {strata}</translation>
+        </message>
+        <message>
+            <source>no study {name!r} has begun here; there: {known}</source>
+            <translation type="unfinished">aucune étude {name!r} n’a commencé ici ; il y a : {known}</translation>
+        </message>
+        <message>
+            <source>its columns are not those of a series</source>
+            <translation type="unfinished">ses colonnes ne sont pas celles d’une série</translation>
+        </message>
+        <message>
+            <source>its series cannot be read: {reason}</source>
+            <translation type="unfinished">sa série est illisible : {reason}</translation>
+        </message>
+        <message>
+            <source>its score cannot be read: {reason}</source>
+            <translation type="unfinished">son score est illisible : {reason}</translation>
+        </message>
+        <message>
+            <source>its score follows rules {version}, unknown here</source>
+            <translation type="unfinished">son score suit les règles {version}, inconnues ici</translation>
+        </message>
+        <message>
+            <source>it is too large</source>
+            <translation type="unfinished">elle est trop grande</translation>
         </message>
     </context>
 </TS>

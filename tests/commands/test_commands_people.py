@@ -241,9 +241,11 @@ def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, mon
 OPEN_TO_ALL = {
     *("exercise list", "exercise suggest", "exercise validate", "exercise schema"),
     *("session list", "session recover", "store status", "store rebuild", "session gather"),
+    *("research verify", "research power"),
 }
 """Of these nouns, what needs no instructor: `session list` lists what is nobody's, `session gather`
-moves records from a folder that its own account owns and shows none."""
+moves records from a folder that its own account owns and shows none, `research verify` reads a file
+that names nobody and `research power` reads nothing."""
 
 
 @pytest.mark.long("journey")
@@ -276,6 +278,15 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("exercise", "trial", "first-insertion", "--seeds", "1"),
         ("exercise", "bands", "first-insertion", "--experienced", "A"),
         ("exercise", "mark", "first-insertion", "--experienced", "A"),
+        ("research", "new", "--out", out),
+        ("research", "check", out),
+        ("research", "begin", out),
+        ("research", "enrol", "s", "Ada", "--consent-by", "A", "--consent-version", "1"),
+        ("research", "answer", "s", "sus", "--from", out),
+        ("research", "leave", "s", "Ada"),
+        ("research", "status"),
+        ("research", "lock", "s", "--by", "A"),
+        ("research", "bundle", "s", "--out", out),
         ("people", "list"),
         ("people", "remark", first, "--release"),
         ("course", "list"),
@@ -302,7 +313,7 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
     found = acus("session", "list")
     assert (found["sessions"], found["hidden"]) == ([], 2)
     closed = {" ".join(words[:2]) for words in doors}
-    for noun in ("session", "results", "exercise", "course", "store"):
+    for noun in ("session", "results", "exercise", "course", "store", "research"):
         assert commands_of(noun) - OPEN_TO_ALL <= closed, noun
 
 

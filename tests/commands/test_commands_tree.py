@@ -30,6 +30,8 @@ NEEDS_MORE = {
     "transform export", "transform show", "urdf import", "camera test", "library remove",
     "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
+    "research answer", "research begin", "research bundle", "research check", "research enrol",
+    "research leave", "research lock", "research verify",
     "results export", "results reliability", "results xapi", "session delete",
     "session restore", "store gather", "store restore", "store revoke", "store sync",
 }  # fmt: skip
@@ -119,6 +121,9 @@ EXAMPLES = {
     "registration list": (),
     "course list": (),
     "people list": (),
+    "research new": ("--out", "design.yaml"),
+    "research power": ("--effect", "9", "--sd", "10", "--simulations", "100"),
+    "research status": (),
     "results board": (),
     "session export": ("--out", "all.csv"),
     "session list": (),

@@ -110,16 +110,14 @@ def upgrade(connection: Connection, name: str, make: bool = True) -> None:
         StoreError: if there are none and none are made, a newer version of Acus made them, or it
             holds tables of another program.
     """
-    from alembic import command
-    from alembic.config import Config
+    from alembic.operations import Operations
+    from alembic.runtime.migration import MigrationContext
     from alembic.script import ScriptDirectory
     from sqlalchemy import inspect
 
     here = revision_of(connection)
-    config = Config()
-    config.set_main_option("script_location", str(Path(__file__).parent / "migrations"))
-    config.attributes["connection"] = connection
-    steps = {one.revision for one in ScriptDirectory.from_config(config).walk_revisions()}
+    script = ScriptDirectory(str(Path(__file__).parent / "migrations"))
+    steps = {one.revision for one in script.walk_revisions()}
     if here and here not in steps:
         raise StoreError(
             sentence(
@@ -147,5 +145,8 @@ def upgrade(connection: Connection, name: str, make: bool = True) -> None:
                 name=name,
             )
         )
-    if here != HEAD:
-        command.upgrade(config, "head")
+    context = MigrationContext.configure(connection)
+    with Operations.context(context):
+        for one in reversed(list(script.iterate_revisions("head", here or "base"))):
+            one.module.upgrade()
+            context.stamp(script, one.revision)
