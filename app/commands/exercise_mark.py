@@ -54,8 +54,7 @@ def mark(
     the experienced and of others part (--experienced). Scripts set none.
     """
     from app.exercises.library import load_exercise
-    from app.scoring.pass_line import pass_lines
-    from app.scoring.published_pass import published_shares
+    from app.scoring.pass_line import pass_lines, published_shares
     from app.session.index import Index
     from app.session.people import People
     from app.session.people_marks import points_of_people, set_mark, with_mark

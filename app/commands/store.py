@@ -103,7 +103,7 @@ def check(
     """
     from app.commands.calibrate_parts import with_progress
     from app.commands.doors import instructor
-    from app.session.checking import check_backup, check_store
+    from app.session.archive import check_backup, check_store
     from app.session.people import People
     from app.session.store import records_folder
 

@@ -26,7 +26,7 @@ from uuid import uuid4
 from app.core import paths
 from app.core.files import beside, step
 from app.core.messages import sentence
-from app.core.sorting import name_order
+from app.core.words import name_order
 from app.session.accounts import entry_of, owner_of
 from app.session.audit import note
 from app.session.database import BUSY_SECONDS, Database, number, words

@@ -2,7 +2,7 @@
 
 import random
 
-from app.core.sorting import name_order
+from app.core.words import name_order
 
 SORTED = [
     *("Ågren", "Ångström", "Lukas", "Łukasz", "Lutz", "Muller", "Müller", "Muzik", "Nagy"),

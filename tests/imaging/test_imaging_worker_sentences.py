@@ -9,9 +9,8 @@ import pytest
 from app.core.messages import Sentence, joined, sentence
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, SeriesRefusedError, WorkerLostError
-from app.imaging.worker.answers import failed, outcome
+from app.imaging.worker.answers import ForeignSentenceError, arrived, crossing, failed, outcome
 from app.imaging.worker.pool import ImagingWorker
-from app.imaging.worker.sentences import ForeignSentenceError, arrived, crossing
 from app.imaging.worker.service import read_headers
 
 ROWS = "{path!r} has {rows} rows of {share:.1f} %: {fault}"

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from app.research import ResearchError
-from app.research.mixed_model import fit
 from app.research.power import (
     Assumptions,
+    fit,
     power_of_t,
     simulate,
     students_by_simulation,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from scipy.stats import gamma
 
-from app.scoring.published_pass import published_shares
+from app.scoring.pass_line import published_shares
 from app.scoring.rows import ScoreRules
 from app.scoring.tolerance import Tolerance
 

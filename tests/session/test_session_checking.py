@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from school_stations import SchoolStation, headed, pool
 
 from app.session import audit
-from app.session.archive import backup
+from app.session.archive import backup, check_backup, check_store
 from app.session.backup_file import ArchiveError
-from app.session.checking import check_backup, check_store
 from app.session.people import PEOPLE, People
 from app.session.store import delete
 

@@ -6,7 +6,7 @@ from app.scoring.competence.design import design as design
 from app.scoring.competence.following import Competence as Competence
 from app.scoring.competence.following import CompetenceState as CompetenceState
 from app.scoring.competence.following import competence as competence
+from app.scoring.competence.following import competence_words as competence_words
 from app.scoring.competence.forecast import Forecast as Forecast
 from app.scoring.competence.rule import RULE as RULE
 from app.scoring.competence.rule import CompetenceRule as CompetenceRule
-from app.scoring.competence.words import competence_words as competence_words

@@ -10,6 +10,8 @@ by what he could do weeks ago. That only lowers scores, so that the share of fal
 from his first attempt, is still kept. Whoever is competent stays so through a gap, and is watched
 more closely after it: the score of the watching test is raised to half its limit
 (`design.head_start`), from where fewer failures signal a relapse. Both errors are in `Design`.
+
+What is said of somebody's competence, in a line.
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from enum import StrEnum
 from math import ceil
 from typing import Any
 
-from app.core.messages import sentence
+from app.core.messages import Sentence, counted, sentence
 from app.scoring.competence.cusum import CompetenceError
 from app.scoring.competence.design import Design, design, head_start
 from app.scoring.competence.forecast import LAST, Forecast, forecast
@@ -161,4 +163,40 @@ def competence(
         false_alarm=plan.false_alarm_by(walk.learning) if competent else None,
         fewest=0 if competent else max(1, ceil(missing / plan.learning.gain - 1e-9)),
         forecast=forecast(plan, walk.score, passed[-LAST:]) if passed and not competent else None,
+    )
+
+
+def competence_words(standing: Competence) -> Sentence:
+    """Say how somebody stands: since which attempt, with which error, how many more."""
+    if standing.state is CompetenceState.COMPETENT:
+        alarm = standing.false_alarm if standing.false_alarm is not None else 1.0
+        return sentence(
+            "competent after {attempts} (false alarm ≤ {percent} %)",
+            attempts=counted("{n} attempt", "{n} attempts", standing.changes[-1].attempt),
+            percent=min(100, ceil(100.0 * alarm - 1e-9)),
+        )
+    more = _more(standing)
+    if standing.state is CompetenceState.RELAPSE:
+        return sentence(
+            "relapse after attempt {attempt}: {more}",
+            attempt=standing.changes[-1].attempt,
+            more=more,
+        )
+    return sentence("not yet: {more}", more=more)
+
+
+def _more(standing: Competence) -> Sentence:
+    """Say how many attempts more there are at least, and within what they may lie."""
+    fewest, likely = standing.fewest, standing.forecast
+    if likely is None:
+        return sentence("at least {fewest} more", fewest=fewest)
+    if likely.low is None:
+        return sentence("at least {fewest} more (hardly, as the last ones went)", fewest=fewest)
+    if likely.high is None:
+        return sentence("at least {fewest} more ({low} or more)", fewest=fewest, low=likely.low)
+    return sentence(
+        "at least {fewest} more ({low} to {high})",
+        fewest=fewest,
+        low=likely.low,
+        high=likely.high,
     )

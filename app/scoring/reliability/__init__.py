@@ -6,9 +6,13 @@ discrimination, standard errors). All of them take points as arrays and know not
 """
 
 from app.scoring.reliability.components import ScoreCube, VarianceComponents, variance_components
-from app.scoring.reliability.dependability import DecisionStudy
+from app.scoring.reliability.dependability import (
+    DecisionStudy,
+    ItemStatistics,
+    item_statistics,
+    within_student_sd,
+)
 from app.scoring.reliability.icc import Agreement, intraclass
-from app.scoring.reliability.items import ItemStatistics, item_statistics, within_student_sd
 
 __all__ = [
     "Agreement",

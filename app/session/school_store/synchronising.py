@@ -25,8 +25,16 @@ from app.session.people import People
 from app.session.results_file import up_to_date
 from app.session.school_file import COURSE as COURSE_FILE
 from app.session.school_file import UnknownStationError, read_manifest, stations_with
-from app.session.school_store.own_packets import OwnThings, missing
-from app.session.school_store.packet import ATTEMPT, COURSE, ERASED, REMARKS, STATION, PacketRow
+from app.session.school_store.packet import (
+    ATTEMPT,
+    COURSE,
+    ERASED,
+    REMARKS,
+    STATION,
+    OwnThings,
+    PacketRow,
+    missing,
+)
 from app.session.school_store.place import StorePlace
 from app.session.school_store.store import ReadPlace, SchoolStore
 from app.session.school_tables import ErasedKeys

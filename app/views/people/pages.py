@@ -56,12 +56,12 @@ from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 from app.views.people.competence_marks import (
     MARKS,
+    CompetenceRates,
     competence_line,
     draw_changes,
     mark_words,
     rule_words,
 )
-from app.views.people.competence_rates import CompetenceRates
 
 _DAY: Final = 86400.0
 _LEVEL: Final = 0.5
