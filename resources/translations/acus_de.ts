@@ -15064,6 +15064,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">PINs</translation>
         </message>
         <message>
+            <source>Draw another PIN for {name}?</source>
+            <translation type="unfinished">Für {name} eine andere PIN ziehen?</translation>
+        </message>
+        <message>
+            <source>The one before is worth nothing then. The new one is shown once.</source>
+            <translation type="unfinished">Die bisherige gilt dann nicht mehr. Die neue wird einmal gezeigt.</translation>
+        </message>
+        <message>
+            <source>Draw a PIN</source>
+            <translation type="unfinished">PIN ziehen</translation>
+        </message>
+        <message>
             <source>Erase</source>
             <translation type="unfinished">Löschen</translation>
         </message>

@@ -15064,6 +15064,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Codes PIN</translation>
         </message>
         <message>
+            <source>Draw another PIN for {name}?</source>
+            <translation type="unfinished">Tirer un autre code PIN pour {name} ?</translation>
+        </message>
+        <message>
+            <source>The one before is worth nothing then. The new one is shown once.</source>
+            <translation type="unfinished">Le précédent ne vaudra plus rien. Le nouveau est montré une fois.</translation>
+        </message>
+        <message>
+            <source>Draw a PIN</source>
+            <translation type="unfinished">Tirer un code PIN</translation>
+        </message>
+        <message>
             <source>Erase</source>
             <translation type="unfinished">Effacer</translation>
         </message>

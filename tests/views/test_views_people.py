@@ -751,3 +751,24 @@ def test_a_student_may_recover_but_not_discard_and_reads_no_name(
     assert killed.exists()
     buttons["Recover"].click()
     assert settle(lambda: read_recording(killed).complete)
+
+
+def test_another_pin_is_drawn_only_after_a_question(window, feature, settle):
+    """Seen: a click beside the button that was meant, and the PIN of a student was another one."""
+    people = People()
+    people.add(RosterLine("Ada", pin="271828"))
+    feature.show()
+    students = feature.page.students
+    assert settle(lambda: bool(students.people))
+    students.table.selectRow(0)
+    feature.new_pin()
+    asked = feature.dialog
+    assert asked.text() == "Draw another PIN for Ada?"
+    asked.defaultButton().click()  # Cancel
+    assert people.sign_in("Ada", "271828").pseudonym == "Ada"
+    feature.new_pin()
+    next(b for b in feature.dialog.buttons() if b.text() == "Draw a PIN").click()
+    assert settle(lambda: feature.dialog is not None and hasattr(feature.dialog, "layout"))
+    text = feature.dialog.findChild(QPlainTextEdit).toPlainText()
+    assert people.sign_in("Ada", text.split()[-1]).pseudonym == "Ada"
+    feature.dialog.done(0)

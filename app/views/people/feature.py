@@ -393,15 +393,30 @@ class PeopleFeature(Feature):
             self._tell(tr("PINs"), words, pins, once=True)
 
     def new_pin(self) -> None:
-        """Draw another PIN for the student who is chosen."""
+        """Ask whether another PIN is drawn for the student who is chosen."""
         if not self._may():
             return
         person = self.page.students.chosen()
-        if person is not None:
-            pin = f"{secrets.randbelow(10**6):06d}"
-            self._try(lambda: self._people.set_pin(person.pseudonym, pin))
-            words = tr("Hand this out; it is not stored anywhere.")
-            self._tell(tr("PIN"), words, f"{person.pseudonym}  {pin}", once=True)
+        if person is None:
+            return
+        box = message_box(
+            self._shell.dialog_parent,
+            tr("PIN"),
+            tr("Draw another PIN for {name}?", name=person.pseudonym),
+            tr("The one before is worth nothing then. The new one is shown once."),
+        )
+        draw = box.addButton(tr("Draw a PIN"), QMessageBox.ButtonRole.AcceptRole)
+        box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))
+        box.buttonClicked.connect(
+            lambda clicked: self._draw_pin(person) if clicked is draw and self._may() else None
+        )
+        self._open(box)
+
+    def _draw_pin(self, person: Person) -> None:
+        pin = f"{secrets.randbelow(10**6):06d}"
+        self._try(lambda: self._people.set_pin(person.pseudonym, pin))
+        words = tr("Hand this out; it is not stored anywhere.")
+        self._tell(tr("PIN"), words, f"{person.pseudonym}  {pin}", once=True)
 
     def erase(self) -> None:
         """Ask whether, and how, the student who is chosen is erased for good."""
