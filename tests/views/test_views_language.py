@@ -7,10 +7,14 @@ from views_exercise_attempts import review
 from window_rig import plan
 
 from app.exercises.library import load_exercise
+from app.session.people import People
+from app.session.roster import RosterLine
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit import language
+from app.views.kit.access import ACCESS
 from app.views.kit.roles import Role
+from app.views.people.feature import PeopleFeature
 from app.views.shell.language import Rebuilding, fill_language_menu
 from app.views.shell.window import MainWindow
 
@@ -202,3 +206,28 @@ def test_everybody_chooses_the_language_in_the_menu_of_views(rebuilding, role, s
         assert titles.count("Language") == 1
         rebuilding.change(choice)
         settle(lambda window=window: not isValid(window))
+
+
+@pytest.mark.parametrize("who", ["instructor", "student"])
+def test_whoever_is_signed_in_stays_so_in_another_language(rebuilding, settle, who):
+    """Seen: the instructor chose German, and was a student on the start page."""
+    people = People()
+    people.set_instructor("correct horse battery")
+    person, _ = people.add(RosterLine("Ada", pin="271828"))
+    if who == "instructor":
+        ACCESS.sign_in(None, instructor=True)
+    else:
+        ACCESS.sign_in(person)
+    window, role = rebuilding.window, ACCESS.role
+    window.feature(PeopleFeature).show()
+    try:
+        rebuilding.change("de")
+        settle(lambda: not isValid(window))
+        settle(lambda: ACCESS.guarded)
+        assert ACCESS.instructor == (who == "instructor")
+        assert (ACCESS.student is not None) == (who == "student")
+        assert ACCESS.role is role
+        new = rebuilding.window
+        assert new.pages.currentWidget() is new.feature(PeopleFeature).page
+    finally:
+        ACCESS.sign_in(None)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QMenu
 
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
+from app.views.kit.access import ACCESS
 from app.views.kit.language import choose, chosen, code_for, languages, use_language
 from app.views.kit.text import tr
 from app.views.people.feature import PeopleFeature
@@ -86,6 +87,7 @@ class Rebuilding(QObject):
         edit, path, dirty = window.editor.edit, window.editor.path, window.editor.dirty
         attempted, begun = window.editor.attempted, window.feature(ExerciseFeature).beginning
         briefed = exercise is not None and begun.is_briefed(exercise)
+        signed_in = ACCESS.student, ACCESS.instructor
         page, debrief = window.pages.currentWidget(), window.feature(DebriefFeature)
         if not all(one.may_go() for one in window.features if not isinstance(one, PlanFeature)):
             return
@@ -111,11 +113,20 @@ class Rebuilding(QObject):
                 new.editor.note_attempt()
         if page is window.start_page:
             new.show_start()
-        elif page is window.feature(PeopleFeature).page:
-            new.feature(PeopleFeature).show()
-        else:
+        elif page is not window.feature(PeopleFeature).page:
             new.feature(DebriefFeature).go_on(debrief, page)
-        QTimer.singleShot(0, self, lambda: _destroy(window))
+
+        of_people = page is window.feature(PeopleFeature).page
+
+        def end() -> None:
+            _destroy(window)
+            if any(signed_in):  # whoever sits here has not gone
+                ACCESS.sign_in(*signed_in)
+                new.feature(PeopleFeature).look()
+            if of_people:
+                new.feature(PeopleFeature).show()
+
+        QTimer.singleShot(0, self, end)
 
 
 def _destroy(window: MainWindow) -> None:
