@@ -2,7 +2,7 @@
 
 A study is a YAML file until it begins; then its list of allocations is sealed and a ledger says
 what happens. What leaves is one bundle, which anybody can check without this station. (Studies of
-the program's own accuracy are in `app.studies`.)
+the program's own accuracy are another room.)
 
 The door: `ResearchDesign` and `read_design`, `begin` and `find_study`.
 """

@@ -94,7 +94,7 @@ def parts() -> tuple[Part, ...]:
 def licence(library: Distribution) -> str:
     """Return the licence of a library in a line; "not stated" where its metadata are silent."""
     data = library.metadata
-    if text := data["License-Expression"]:
+    if text := data.get("License-Expression"):
         return str(text)
     if stated := _STATED.get(_key(data["Name"])):
         return stated
@@ -103,7 +103,7 @@ def licence(library: Distribution) -> str:
         for line in data.get_all("Classifier") or ()
         if line.startswith("License ::") and not line.endswith("OSI Approved")
     ]
-    words = str(data["License"] or "").strip()
+    words = str(data.get("License") or "").strip()
     if words and "\n" not in words and len(words) <= _LONGEST:
         return words
     return ", ".join(classes) or "not stated"
