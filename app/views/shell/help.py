@@ -16,7 +16,7 @@ from importlib import metadata
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from pathlib import Path
 from re import match
-from typing import Final
+from typing import Any, Final
 
 from PySide6.QtCore import QByteArray, QSize, Qt, QUrl, qVersion
 from PySide6.QtGui import (
@@ -94,8 +94,8 @@ def parts() -> tuple[Part, ...]:
 def licence(library: Distribution) -> str:
     """Return the licence of a library in a line; "not stated" where its metadata are silent."""
     data = library.metadata
-    if text := data.get("License-Expression"):
-        return str(text)
+    if text := _field(data, "License-Expression"):
+        return text
     if stated := _STATED.get(_key(data["Name"])):
         return stated
     classes = [
@@ -103,10 +103,15 @@ def licence(library: Distribution) -> str:
         for line in data.get_all("Classifier") or ()
         if line.startswith("License ::") and not line.endswith("OSI Approved")
     ]
-    words = str(data.get("License") or "").strip()
+    words = _field(data, "License").strip()
     if words and "\n" not in words and len(words) <= _LONGEST:
         return words
     return ", ".join(classes) or "not stated"
+
+
+def _field(data: Any, name: str) -> str:
+    """Return a field of metadata; empty without it: who reads them may raise for that."""
+    return str(data[name] or "") if name in data else ""
 
 
 def _key(name: str) -> str:
