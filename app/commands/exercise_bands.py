@@ -29,22 +29,25 @@ Name = Annotated[
 ]
 
 
+Others = Annotated[
+    str, typer.Option("--others", metavar="GROUP", help="The others; else everybody else.")
+]
+Hand = Annotated[HandName, typer.Option("--hand", help="What moved the needle.")]
+NewTitle = Annotated[str, typer.Option("--title", help="Keep it as a new exercise of this title.")]
+Save = Annotated[bool, typer.Option("--save", help="Keep it as a new version.")]
+Records = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
+
+
 def bands(
     exercise: Name,
     experienced: Annotated[
         str, typer.Option("--experienced", metavar="GROUP", help="Group of the experienced.")
     ],
-    others: Annotated[
-        str, typer.Option("--others", metavar="GROUP", help="The others; else everybody else.")
-    ] = "",
-    hand: Annotated[HandName, typer.Option("--hand", help="What moved the needle.")] = (
-        HandName.MOUSE
-    ),
-    title: Annotated[
-        str, typer.Option("--title", help="Keep it as a new exercise of this title.")
-    ] = "",
-    save: Annotated[bool, typer.Option("--save", help="Keep it as a new version.")] = False,
-    folder: Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")] = None,
+    others: Others = "",
+    hand: Hand = HandName.MOUSE,
+    title: NewTitle = "",
+    save: Save = False,
+    folder: Records = None,
 ) -> Answer:
     """Fit bands to experienced people (instructor). Printed; kept if asked."""
     from app.exercises.library import load_exercise

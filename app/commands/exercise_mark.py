@@ -7,7 +7,17 @@ import typer
 
 from app.commands.answer import Answer
 from app.commands.doors import instructor
-from app.commands.exercise_bands import Name, kept_as, refuse_both, two_groups
+from app.commands.exercise_bands import (
+    Hand,
+    Name,
+    NewTitle,
+    Others,
+    Records,
+    Save,
+    kept_as,
+    refuse_both,
+    two_groups,
+)
 from app.commands.reader_language import template
 from app.commands.shown import Each, Shown
 from app.core.errors import ConfigurationError
@@ -35,18 +45,12 @@ def mark(
     experienced: Annotated[
         str, typer.Option("--experienced", metavar="GROUP", help="Group of the experienced.")
     ] = "",
-    others: Annotated[
-        str, typer.Option("--others", metavar="GROUP", help="The others; else everybody else.")
-    ] = "",
+    others: Others = "",
     at: Annotated[float, typer.Option("--at", help="Rating that means borderline.")] = 2.0,
-    hand: Annotated[HandName, typer.Option("--hand", help="What moved the needle.")] = (
-        HandName.MOUSE
-    ),
-    title: Annotated[
-        str, typer.Option("--title", help="Keep it as a new exercise of this title.")
-    ] = "",
-    save: Annotated[bool, typer.Option("--save", help="Keep it as a new version.")] = False,
-    folder: Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")] = None,
+    hand: Hand = HandName.MOUSE,
+    title: NewTitle = "",
+    save: Save = False,
+    folder: Records = None,
 ) -> Answer:
     """Set the pass mark by people (instructor). Printed; kept if asked.
 

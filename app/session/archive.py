@@ -34,7 +34,15 @@ from app.core.files import beside, remove, replace, step, sweep
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.audit import entries, note
-from app.session.backup_file import FORMAT, MANIFEST, VERSION, ArchiveError, may_hold, read_manifest
+from app.session.backup_file import (
+    FORMAT,
+    MANIFEST,
+    VERSION,
+    ArchiveError,
+    may_hold,
+    read_manifest,
+    reading_backup,
+)
 from app.session.course import courses_folder
 from app.session.database import BUSY_SECONDS
 from app.session.erasing import UNDO_DAYS as UNDO_DAYS
@@ -280,7 +288,7 @@ def check_backup(source: Path, progress: Progress | None = None) -> StoreCheck:
     """
     progress, wrong, count = progress or Progress(), [], 0
     try:
-        with zipfile.ZipFile(source) as archive:
+        with reading_backup(source), zipfile.ZipFile(source) as archive:
             manifest = read_manifest(archive, source)
             for number, (name, digest) in enumerate(manifest.files.items()):
                 progress.report(number / len(manifest.files), name.rpartition("/")[2])
@@ -295,12 +303,6 @@ def check_backup(source: Path, progress: Progress | None = None) -> StoreCheck:
                     right = False
                 if not right:
                     wrong.append(sentence("{name} is not what was packed", name=name))
-    except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
-        raise ArchiveError(
-            sentence(
-                "{source} is no backup of Acus, or damaged: {error}", source=source, error=error
-            )
-        ) from error
     except OSError as error:
         why = error.strerror or error
         raise ArchiveError(

@@ -8,7 +8,8 @@ import os
 import re
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -50,6 +51,23 @@ class Manifest:
     key: Mapping[str, str]
     station: str
     left_out: tuple[str, ...] = ()
+
+
+@contextmanager
+def reading_backup(source: Path) -> Iterator[None]:
+    """Name a backup in whatever is wrong with its archive.
+
+    Raises:
+        ArchiveError: if it is none, cut, or packed as no backup is.
+    """
+    try:
+        yield
+    except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
+        raise ArchiveError(
+            sentence(
+                "{source} is no backup of Acus, or damaged: {error}", source=source, error=error
+            )
+        ) from error
 
 
 def may_hold(name: str) -> bool:

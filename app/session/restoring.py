@@ -22,7 +22,7 @@ from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.accounts import owner_of
 from app.session.audit import note
-from app.session.backup_file import ArchiveError, Manifest, read_manifest, unpack
+from app.session.backup_file import ArchiveError, Manifest, read_manifest, reading_backup, unpack
 from app.session.erasing import finish_erasing
 from app.session.errors import BrokenRecordingError
 from app.session.header import TRASH
@@ -131,7 +131,7 @@ def restore_backup(
     people, progress = people or People(), progress or Progress()
     settled(folder)
     try:
-        with zipfile.ZipFile(source) as archive:
+        with reading_backup(source), zipfile.ZipFile(source) as archive:
             manifest = read_manifest(archive, source)
             asked = recovery and manifest.key
             key = StationKey.unwrapped(manifest.key, recovery) if asked else None
@@ -139,12 +139,6 @@ def restore_backup(
                 at = _Restoring(archive, source, manifest, folder, people, stages)
                 _restore(at, key, replace_people, progress)
                 journal.plan([*at.steps, *map(removal, stages.values())])
-    except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
-        raise ArchiveError(
-            sentence(
-                "{source} is no backup of Acus, or damaged: {error}", source=source, error=error
-            )
-        ) from error
     except OSError as error:
         why = error.strerror or error
         raise ArchiveError(

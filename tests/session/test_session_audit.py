@@ -164,7 +164,7 @@ def test_where_it_cannot_be_written_the_work_goes_on(caplog: pytest.LogCaptureFi
 
 def test_more_than_a_hundred_ids_are_counted_and_what_is_no_id_is_left_out() -> None:
     audit.note("attempts remarked", [f"a{n}" for n in range(150)])
-    audit.note("attempts remarked", ["a", "Ada Lovelace", "/home/ada"])
+    audit.note("attempts remarked", ["a", "Ada Lovelace", "records/ada"])
     first, second = audit.entries()
     assert (first.about, first.count) == ((), 150)
     assert (second.about, second.count) == (("a",), 1)

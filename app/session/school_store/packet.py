@@ -127,10 +127,14 @@ class OwnThings:
 
     def marks(self) -> dict[tuple[str, str], str]:
         """Return the marks of all but the course, by kind and item."""
-        marks = {(STATION, ""): _digest([self.key.public, self.sender.name])}
+        marks = {(STATION, ""): self._introduction}
         marks |= {(ATTEMPT, one.attempt): one.record for one in self.own_attempts()}
         marks |= {(REMARKS, whose): _mark(some) for whose, some in self.remarks.items()}
         return marks | {(ERASED, one.digest): one.digest for one in self.stones}
+
+    @property
+    def _introduction(self) -> str:
+        return _digest([self.key.public, self.sender.name])
 
     def packet(self, kind: str, item: str) -> Packet | None:
         """Return a packet; None of an attempt that was altered after it was signed."""
@@ -150,7 +154,7 @@ class OwnThings:
             mark, student = _mark(some), item
         elif kind == STATION:  # so that it can be let in before it has made anything
             data = self._signed(lambda _: SchoolManifest(RESULTS, self.sender))
-            mark, student = self.marks()[STATION, ""], ""
+            mark, student = self._introduction, ""
         else:
             (stone,) = (one for one in self.stones if one.digest == item)
             data = self._signed(lambda _: SchoolManifest(RESULTS, self.sender, tombstones=(stone,)))

@@ -14,7 +14,6 @@ from contextlib import contextmanager, suppress
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
-from uuid import uuid4
 
 from app.core.extras import not_installed
 from app.core.files import step
@@ -23,7 +22,7 @@ from app.session.database import lockable
 from app.session.school_store.errors import StoreError, UnreachableStoreError, named_errors
 from app.session.school_store.objects import Objects
 from app.session.school_store.packet import ATTEMPT, COURSE, REMARKS, STATION, Packet, PacketRow
-from app.session.school_store.tables import BEGIN, about, chained, packets, upgrade
+from app.session.school_store.tables import BEGIN, chained, packets, upgrade
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection, Engine
@@ -83,11 +82,6 @@ class SchoolStore:
         url = make_url(self._url)
         return Path(str(url.database)) if url.get_backend_name() == "sqlite" else None
 
-    @property
-    def seconds(self) -> float:
-        """Return what one answer may take [s]."""
-        return self._seconds
-
     def open(self, make: bool = True) -> None:
         """Connect, and bring the tables up to date; again it changes nothing.
 
@@ -109,8 +103,6 @@ class SchoolStore:
             )
         with self._writing() as connection:
             upgrade(connection, self.name, make)
-            if connection.execute(about().select()).first() is None:
-                connection.execute(about().insert(), {"store": uuid4().hex})
 
     def close(self) -> None:
         """Let go of it; idempotent."""

@@ -39,7 +39,7 @@ from app.session.school_store.place import StorePlace
 from app.session.school_store.store import ReadPlace, SchoolStore
 from app.session.school_tables import ErasedKeys
 from app.session.station import StationKey
-from app.session.station_results import tombstones
+from app.session.station_results import counted_attempts, tombstones
 from app.session.stations import fingerprint, put_setting, stations_of
 from app.session.taking_in import OpenedFile
 
@@ -168,8 +168,8 @@ def synchronise(
 
 def waiting(people: People, key: StationKey) -> int:
     """Return how many attempts of this station the store does not have yet, as far as is known."""
-    own = OwnThings.read(people.folder, people, key).attempts.values()
-    mine = sum(one.station == key.station for one in own)
+    with people.database.read() as connection:
+        mine = sum(one.station == key.station for one in counted_attempts(connection).values())
     return max(mine - SyncState.of(people).confirmed, 0)
 
 
@@ -218,17 +218,21 @@ class _Synchronising:
         wanted = [row for row in rows if not self._is_here(row, own, marks)]
         wanted.sort(key=lambda row: row.seq)
         left: set[int] = set()
+        done = 0
         for kind in (STATION, ERASED, COURSE, ATTEMPT, REMARKS):
-            some = [row for row in wanted if row.kind == kind]
-            for number, batch in enumerate(_batches(some)):
-                progress.report(number / (number + 1), sentence("taking in"))
+            for batch in _batches([row for row in wanted if row.kind == kind]):
+                progress.report(done / len(wanted), sentence("taking in"))
                 left |= self._take(batch)
+                done += len(batch)
         self.state = replace(self.state, place=head, left=frozenset(left))
 
     def erase(self) -> None:
         """Let nothing stay in the store of who was erased."""
         with self.people.database.read() as connection:
-            erased = ErasedKeys(tombstones(connection))
+            stones = tombstones(connection)
+        if not stones:
+            return
+        erased = ErasedKeys(stones)
         whose = {one: erased.of(one) for one in self.store.students()}
         deleted = {one for one, kind in whose.items() if kind == "deleted"}
         anonymous = {one for one, kind in whose.items() if kind == "kept"}

@@ -42,7 +42,6 @@ def _known() -> MetaData:
     )
 
     known = MetaData()
-    Table("about", known, Column("store", String(32), primary_key=True))
     number = BigInteger().with_variant(Integer, "sqlite")
     Table(
         "packets",
@@ -73,11 +72,6 @@ def metadata() -> MetaData:
 def packets() -> Table:
     """Return the table of packets."""
     return _known().tables["packets"]
-
-
-def about() -> Table:
-    """Return the table that holds the store's id."""
-    return _known().tables["about"]
 
 
 def chained(before: str, digest: str) -> str:

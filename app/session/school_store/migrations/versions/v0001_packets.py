@@ -1,4 +1,4 @@
-"""Make the tables of 0.1.0: packets in the order in which they came, and the store's id."""
+"""Make the tables of 0.1.0: packets in the order in which they came."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ depends_on = None
 
 def upgrade() -> None:
     """Make them."""
-    op.create_table("about", sa.Column("store", sa.String(32), primary_key=True))
     op.create_table(
         "packets",
         sa.Column(
