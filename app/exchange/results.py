@@ -192,7 +192,8 @@ def competence_document(board: ProgressBoard, key: str, exercise: str) -> dict[s
     standing = board.competence(key, exercise)
     if standing is None:
         return None
-    return standing.document() | {"words": competence_words(standing)}
+    words = competence_words(standing, board.attempts_left(key, exercise))
+    return standing.document() | {"words": words}
 
 
 def _tidy(results: Results, progress: Progress) -> Iterator[Sequence[object]]:

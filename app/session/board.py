@@ -136,6 +136,11 @@ class ProgressBoard:
             self._competences[place] = competence(passed, times, self.now, self.rule)
         return self._competences.get(place)
 
+    def attempts_left(self, key: str, exercise: str) -> int | None:
+        """Return how many attempts the course still allows at most; None without a limit."""
+        limit = next((one.attempts for one in self.items if one.exercise == exercise), None)
+        return None if limit is None else max(0, limit - len(self.counted.get((key, exercise), ())))
+
     def tell_competence(self) -> None:
         """Tell it of every cell now, so that nobody waits for it later."""
         for person in self.students:

@@ -20695,6 +20695,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">noch nicht: {more}</translation>
         </message>
         <message>
+            <source>at least {fewest} more, and the course allows {left}</source>
+            <translation type="unfinished">mindestens {fewest} weitere, und der Kurs erlaubt {left}</translation>
+        </message>
+        <message>
             <source>at least {fewest} more</source>
             <translation type="unfinished">mindestens noch {fewest}</translation>
         </message>

@@ -20695,6 +20695,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">pas encore : {more}</translation>
         </message>
         <message>
+            <source>at least {fewest} more, and the course allows {left}</source>
+            <translation type="unfinished">au moins {fewest} de plus, et le cours en permet {left}</translation>
+        </message>
+        <message>
             <source>at least {fewest} more</source>
             <translation type="unfinished">encore {fewest} au moins</translation>
         </message>

@@ -374,3 +374,13 @@ def test_within_few_attempts_only_series_without_a_failure_signal():
     assert by[4] == pytest.approx((1 - rate) ** 4)
     # In five attempts: the first four pass, or the first fails and the other four pass.
     assert by[5] == pytest.approx((1 - rate) ** 4 + rate * (1 - rate) ** 4)
+
+
+def test_what_a_course_does_not_allow_any_more_is_said_and_no_interval_beside_it():
+    """Seen: "not yet: at least 10 more" to a student who has no attempt left."""
+    standing = competence([True] * 2)
+    fewest = standing.fewest
+    assert fewest == 8
+    assert competence_words(standing, 1) == "not yet: at least 8 more, and the course allows 1"
+    assert competence_words(standing, 8) == competence_words(standing) != ""
+    assert "allows" not in competence_words(competence([True] * 12), 0)  # shown already

@@ -19,6 +19,7 @@ from app.session.board import progress_board
 from app.session.course import CourseItem
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
+from app.views.people.competence_marks import competence_line
 from app.views.people.group_report import ReportFacts, group_report, in_order
 from app.views.people.report_pages import ReportPages
 from app.views.people.results_report import student_report
@@ -239,3 +240,14 @@ def test_a_best_near_the_mark_is_marked_in_a_report_and_the_sign_is_explained(dr
     texts = [words for page in drawn() for words in page]
     assert explained in texts
     assert texts.count("≈") == 1
+
+
+def test_a_limit_of_the_course_stands_beside_what_competence_takes():
+    results = results_of(1, 1, 5)
+    (item,), (person,) = results.board.items, results.board.students
+    counted = len(results.board.counted[person.key, item.exercise])
+    limited = replace(results.board, items=(item.model_copy(update={"attempts": counted + 1}),))
+    assert results.board.attempts_left(person.key, item.exercise) is None
+    assert limited.attempts_left(person.key, item.exercise) == 1
+    assert "the course allows 1" in competence_line(limited, person.key, item.exercise)
+    assert "allows" not in competence_line(results.board, person.key, item.exercise)

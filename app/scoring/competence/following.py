@@ -166,8 +166,13 @@ def competence(
     )
 
 
-def competence_words(standing: Competence) -> Sentence:
-    """Say how somebody stands: since which attempt, with which error, how many more."""
+def competence_words(standing: Competence, left: int | None = None) -> Sentence:
+    """Say how somebody stands: since which attempt, with which error, how many more.
+
+    Args:
+        standing: of a student at a skill.
+        left: attempts that a course still allows at most; None where it does not limit them.
+    """
     if standing.state is CompetenceState.COMPETENT:
         alarm = standing.false_alarm if standing.false_alarm is not None else 1.0
         return sentence(
@@ -175,7 +180,7 @@ def competence_words(standing: Competence) -> Sentence:
             attempts=counted("{n} attempt", "{n} attempts", standing.changes[-1].attempt),
             percent=min(100, ceil(100.0 * alarm - 1e-9)),
         )
-    more = _more(standing)
+    more = _more(standing, left)
     if standing.state is CompetenceState.RELAPSE:
         return sentence(
             "relapse after attempt {attempt}: {more}",
@@ -185,9 +190,13 @@ def competence_words(standing: Competence) -> Sentence:
     return sentence("not yet: {more}", more=more)
 
 
-def _more(standing: Competence) -> Sentence:
+def _more(standing: Competence, left: int | None) -> Sentence:
     """Say how many attempts more there are at least, and within what they may lie."""
     fewest, likely = standing.fewest, standing.forecast
+    if left is not None and fewest > left:
+        return sentence(
+            "at least {fewest} more, and the course allows {left}", fewest=fewest, left=left
+        )
     if likely is None:
         return sentence("at least {fewest} more", fewest=fewest)
     if likely.low is None:

@@ -44,7 +44,8 @@ def mark_words(board: ProgressBoard, key: str, exercise: str) -> str:
 def competence_line(board: ProgressBoard, key: str, exercise: str) -> str:
     """Say in a line how a student stands at a skill; empty without an attempt."""
     standing = board.competence(key, exercise)
-    return "" if standing is None else translated(competence_words(standing))
+    left = board.attempts_left(key, exercise)
+    return "" if standing is None else translated(competence_words(standing, left))
 
 
 def rule_words(board: ProgressBoard) -> str:
