@@ -42,7 +42,7 @@ FIRST = (
     "views/test_views_author.py",
     "tracking/test_tracking_marker_coverage.py",
     "views/test_views_beginning.py",
-    "test_without_posix.py",
+    "test_other_systems.py",
     "device/test_device_link_test.py",
     "hard/test_hard_needle_axis.py",
     "test_privacy_leaks.py",
@@ -72,10 +72,26 @@ def pytest_configure(config: pytest.Config) -> None:
         sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the files that take longest, each as a whole; the others stay in their order."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Begin with the files that take longest, each as a whole; the others stay in their order.
+
+    What the file of `ACUS_TESTS_LEFT_OUT` names has passed already and is left out.
+    """
     rank = {ROOT / "tests" / name: place for place, name in enumerate(FIRST)}
     items.sort(key=lambda item: rank.get(item.path, len(rank)))
+    if file := os.environ.get("ACUS_TESTS_LEFT_OUT"):
+        passed = set(Path(file).read_text(encoding="utf-8").splitlines())
+        out = [item for item in items if item.nodeid in passed]
+        config.hook.pytest_deselected(items=out)
+        items[:] = [item for item in items if item.nodeid not in passed]
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Write a test of another process that passed into the file of `ACUS_TESTS_PASSED`."""
+    file = os.environ.get("ACUS_TESTS_PASSED")  # of tools/twice-if-killed
+    if file and hasattr(report, "node") and report.when == "call" and report.passed:
+        with open(file, "a", encoding="utf-8") as passed:
+            passed.write(report.nodeid + "\n")
 
 
 # A program that is killed has its files as the system has them, and waiting for the disk would take

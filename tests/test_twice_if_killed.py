@@ -1,6 +1,8 @@
 """What runs the tests once more where one of their processes died."""
 
+import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -38,6 +40,42 @@ def run(tmp_path: Path, *outcomes: tuple[str, int]) -> tuple[int, str, int]:
 )
 def test_only_a_death_lets_the_tests_run_once_more(tmp_path, outcomes, code, runs):
     assert run(tmp_path, *outcomes)[0::2] == (code, runs)
+
+
+DEADLY = """
+import os
+import pathlib
+import pytest
+
+@pytest.mark.parametrize("number", range(4))
+def test_it(number):
+    with open("runs.txt", "a") as runs:
+        runs.write(str(number))
+    if number == 2 and not pathlib.Path("died").exists():
+        pathlib.Path("died").touch()
+        os._exit(3)
+"""
+
+
+def test_what_passed_before_a_death_is_not_run_again(tmp_path):
+    (tmp_path / "test_deadly.py").write_text(DEADLY)
+    hooks = (Path(__file__).parent / "conftest.py").read_text()
+    wanted = ("pytest_collection_modifyitems", "pytest_runtest_logreport")
+    kept = re.findall(rf"^def (?:{'|'.join(wanted)})\(.*?(?=^\S)", hooks, re.DOTALL | re.MULTILINE)
+    assert len(kept) == len(wanted)
+    head = "import os\nfrom pathlib import Path\nimport pytest\nROOT, FIRST = Path(), ()\n\n"
+    (tmp_path / "conftest.py").write_text(head + "\n\n".join(kept))
+    done = subprocess.run(
+        [str(SCRIPT), sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+        + ["--numprocesses", "1", "--max-worker-restart", "0"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stdout
+    assert (tmp_path / "runs.txt").read_text() == "01223"
 
 
 def test_a_death_is_named_at_the_end(tmp_path):
