@@ -6,8 +6,6 @@ which writes to the same memory.
 """
 
 import math
-import mmap
-import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -16,7 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.core.descriptors import SEAL_GROW, SEAL_SHRINK, seal
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging import memory
@@ -24,6 +21,7 @@ from app.imaging.decoding import is_raw, stored_type
 from app.imaging.errors import SeriesRefusedError
 from app.imaging.header import Rescale, SliceHeader
 from app.imaging.rescaling import fill_slice, fresh_array, padding_ends, padding_stands_out
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.service import fill_slices
 
 _THREADS = 2
@@ -97,25 +95,29 @@ def _all_filled(
         hu = fresh_array(shape, dtype)
         _copy(headers, range(len(headers)), hu, progress)
         return hu
-    descriptor = os.memfd_create("acus-ct", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+    lent = _lent(math.prod(shape) * dtype.itemsize)
     try:
-        hu = _shared(descriptor, shape, dtype)
         share = len(encoded) / len(headers)
         some = [headers[k] for k in encoded]
-        fill_slices(some, encoded, dtype, descriptor, progress.part(0.0, share))
+        fill_slices(some, encoded, dtype, lent, progress.part(0.0, share))
+        hu = np.frombuffer(lent.settled(), dtype, math.prod(shape)).reshape(shape)
     finally:
-        os.close(descriptor)
+        lent.close()
     rest = sorted(set(range(len(headers))) - set(encoded))
     _copy(headers, rest, hu, progress.part(share, 1.0))
     return hu
 
 
-def _shared(descriptor: int, shape: tuple[int, int, int], dtype: np.dtype[Any]) -> NDArray[Any]:
-    size = math.prod(shape) * dtype.itemsize
+def _lent(size: int) -> LentMemory:
+    """Return memory for a volume, whose size the child cannot change where the system sees to it.
+
+    Raises:
+        SeriesRefusedError: if there is not enough.
+    """
     try:
-        os.ftruncate(descriptor, size)
-        seal(descriptor, SEAL_SHRINK | SEAL_GROW)  # the child must not change the size
-        memory = mmap.mmap(descriptor, size)
+        lent = LentMemory.made(size)
+        lent.fix_size()
+        lent.shared()  # whether it can be mapped, before anything is decoded
     except (OSError, ValueError, OverflowError) as error:
         raise SeriesRefusedError(
             sentence(
@@ -123,7 +125,7 @@ def _shared(descriptor: int, shape: tuple[int, int, int], dtype: np.dtype[Any]) 
                 size=size / 1e9,
             )
         ) from error
-    return np.frombuffer(memory, dtype).reshape(shape)
+    return lent
 
 
 def _copy(

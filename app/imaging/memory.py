@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 from numpy.typing import NDArray
 
 from app.core.messages import sentence
@@ -21,7 +22,6 @@ WORKING_COPIES = 1.5
 
 _held: dict[int, int] = {}
 
-_MEMINFO = Path("/proc/meminfo")
 _GROUPS = (
     (Path("/sys/fs/cgroup"), "memory.max", "memory.current", "inactive_file"),
     (
@@ -136,13 +136,9 @@ def available() -> int | None:
 
 def _machine() -> int | None:
     try:
-        lines = _MEMINFO.read_text(encoding="ascii").splitlines()
-    except OSError:
+        return int(psutil.virtual_memory().available)
+    except (OSError, RuntimeError, NotImplementedError):
         return None
-    for line in lines:
-        if line.startswith("MemAvailable:"):
-            return int(line.split()[1]) * 1024
-    return None
 
 
 def _group(names: tuple[Path, str, str, str]) -> int | None:

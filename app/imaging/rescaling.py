@@ -5,7 +5,6 @@ In the worker process slices are decoded straight into memory that the program s
 
 import math
 import mmap
-import os
 from typing import Any, Final
 
 import numpy as np
@@ -17,17 +16,18 @@ from app.imaging import codecs
 from app.imaging.decoding import read_stored, stored_type
 from app.imaging.errors import FileDamagedError, NotExactError, SeriesRefusedError
 from app.imaging.header import Rescale, SliceHeader
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.values import reader
 
-_shared: dict[str, int] = {}
+_shared: dict[str, LentMemory] = {}
 _scratch: dict[str, NDArray[Any]] = {}
 
 
-def take_volume(descriptor: int) -> None:
+def take_volume(memory: LentMemory) -> None:
     """Take the memory that slices are written to, in place of the one before."""
     if "volume" in _shared:
-        os.close(_shared["volume"])
-    _shared["volume"] = descriptor
+        _shared["volume"].close()
+    _shared["volume"] = memory
 
 
 def load_decoders(progress: Progress) -> None:
@@ -48,10 +48,7 @@ def fill(header: SliceHeader, place: int, dtype: str, progress: Progress) -> Non
     fill_slice(header, hu, _array("stored", shape, stored_type(header.format)))
     if "volume" not in _shared:
         raise FileDamagedError(sentence("there is no volume to write to"))
-    view, at = memoryview(hu.data).cast("B"), place * hu.nbytes
-    while view:
-        written = os.pwrite(_shared["volume"], view, at)
-        view, at = view[written:], at + written
+    _shared["volume"].write(place * hu.nbytes, memoryview(hu.data).cast("B"))
 
 
 def _array(name: str, shape: tuple[int, int], dtype: np.dtype[Any]) -> NDArray[Any]:

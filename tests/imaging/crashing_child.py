@@ -17,4 +17,4 @@ def convert(header, to, *rest):
 
 if __name__ == "__main__":
     deidentifying.convert = convert
-    child.main(int(sys.argv[1]))
+    child.main(sys.argv[1])

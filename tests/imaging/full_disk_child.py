@@ -27,4 +27,4 @@ def save(self, path, **how):
 if __name__ == "__main__":
     sources._extract = extract
     pydicom.dataset.FileDataset.save_as = save
-    child.main(int(sys.argv[1]))
+    child.main(sys.argv[1])

@@ -55,4 +55,4 @@ def headers_in(path: Path, settings: Path, progress: Progress):
 
 if __name__ == "__main__":
     header_reading.headers_in = headers_in
-    child.main(int(sys.argv[1]))
+    child.main(sys.argv[1])

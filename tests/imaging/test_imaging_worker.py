@@ -28,6 +28,7 @@ from app.imaging.structures.structure import StructureKind
 from app.imaging.worker import limits, service
 from app.imaging.worker.answers import lost as lost_error
 from app.imaging.worker.attachments import Attachments, AttachmentsError, opened
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.pool import ImagingWorker
 from app.imaging.worker.service import read_headers
 from app.imaging.worker.values import ATTACHED, ForeignValueError, plain, reader
@@ -330,10 +331,10 @@ def test_arrays_travel_beside_the_message_and_cannot_be_changed_on_the_way():
     attachments = Attachments()
     values = (np.arange(7, dtype=np.int16), np.eye(3), np.zeros((0, 4), bool))
     message = plain(values, attachments)
-    descriptor = attachments.descriptor()
-    kept = os.dup(descriptor)
+    memory = attachments.memory()
+    kept = os.dup(memory.descriptor)
     kinds = (Annotated[NDArray[kind], ATTACHED] for kind in (np.int16, np.float64, np.bool_))
-    arrays = opened(message, descriptor)
+    arrays = opened(message, memory)
     found = reader(tuple[*kinds])(arrays)
     for one, other in zip(found, values, strict=True):
         np.testing.assert_array_equal(one, other)
@@ -357,14 +358,14 @@ def test_an_array_that_does_not_lie_in_its_memory_is_refused(where):
     attachments = Attachments()
     attachments.add(np.arange(7, dtype=np.int16))
     with pytest.raises(AttachmentsError):
-        opened([{"array": where}], attachments.descriptor())
+        opened([{"array": where}], attachments.memory())
 
 
 def test_memory_that_its_maker_could_still_shrink_is_refused(tmp_path):
     file = os.open(tmp_path / "plain", os.O_RDWR | os.O_CREAT)
     os.ftruncate(file, 100)
     with pytest.raises(AttachmentsError):
-        opened([{"array": ["<i2", [7], 0]}], file)
+        opened([{"array": ["<i2", [7], 0]}], LentMemory(file))
 
 
 def test_a_file_swapped_after_the_scan_is_not_read(tmp_path):

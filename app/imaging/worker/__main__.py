@@ -1,7 +1,7 @@
-"""Entry of the child: `python -m app.imaging.worker FD`, FD being its end of a socket pair."""
+"""Entry of the child: `python -m app.imaging.worker WHERE`, which says where its connection is."""
 
 import sys
 
 from app.imaging.worker.child import main
 
-main(int(sys.argv[1]))
+main(sys.argv[1])

@@ -20,6 +20,7 @@ from app.imaging.errors import FileDamagedError, WorkerLostError, brief
 from app.imaging.privacy import errors as privacy
 from app.imaging.structures import errors as structures
 from app.imaging.worker.attachments import Attachments, AttachmentsError, opened
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.values import ForeignValueError, plain, reader
 
 DONE, FAILED, SYSTEM, PROGRESS = "done", "failed", "system", "progress"
@@ -61,17 +62,17 @@ def failed(error: BaseException, allowed: int) -> Answer:
     return [FAILED, FileDamagedError.__name__, crossing(text)]
 
 
-def outcome(kind: Any, answer: Answer, descriptor: int | None) -> Any:
+def outcome(kind: Any, answer: Answer, memory: LentMemory | None) -> Any:
     """Return the result of a task, or the error that it ended in: made, not raised.
 
     Args:
         kind: type that the result must have.
         answer: of the child.
-        descriptor: memory with the arrays of the result; closed here.
+        memory: with the arrays of the result; closed here.
     """
     try:
-        if descriptor is not None:
-            answer = opened(answer, descriptor)
+        if memory is not None:
+            answer = opened(answer, memory)
         word, *values = answer
         if word == DONE:
             return reader(kind)(values[0])

@@ -4,20 +4,17 @@ numpy is loaded with the first array: most messages have none.
 """
 
 import math
-import mmap
-import os
 import sys
 from typing import TYPE_CHECKING, Any
 
-from app.core.descriptors import SEAL_GROW, SEAL_SEAL, SEAL_SHRINK, SEAL_WRITE, seal
 from app.core.messages import sentence
+from app.imaging.worker.lent_memory import LentMemory
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _ALIGNED = 64
 _KINDS = "biuf"
-_SEALED = SEAL_SEAL | SEAL_SHRINK | SEAL_GROW | SEAL_WRITE
 _KEY = "array"
 
 
@@ -52,54 +49,49 @@ class Attachments:
         """Leave everything behind."""
         self._arrays, self._end = [], 0
 
-    def descriptor(self) -> int:
-        """Write all of it to memory that a file descriptor stands for; the caller closes it.
+    def memory(self) -> LentMemory:
+        """Write all of it to a piece of memory; the caller closes it.
 
         Raises:
             OSError: if there is not enough memory.
         """
-        made = os.memfd_create("acus-arrays", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+        made = LentMemory.made(self._end)
         try:
-            os.ftruncate(made, self._end)
             end = 0
             for array in self._arrays:
                 start = -(-end // _ALIGNED) * _ALIGNED
                 end = start + array.nbytes
                 _write(made, start, array)
         except BaseException:
-            os.close(made)
+            made.close()
             raise
         return made
 
 
-def _write(descriptor: int, start: int, array: "NDArray[Any]") -> None:
+def _write(memory: LentMemory, start: int, array: "NDArray[Any]") -> None:
     import numpy as np
 
-    view = np.ascontiguousarray(array).data.cast("B") if array.size else memoryview(b"")
-    while view:
-        written = os.pwrite(descriptor, view, start)
-        view, start = view[written:], start + written
+    if array.size:
+        memory.write(start, np.ascontiguousarray(array).data.cast("B"))
 
 
-def opened(message: Any, descriptor: int) -> Any:
+def opened(message: Any, memory: LentMemory) -> Any:
     """Put arrays, read-only, to their places in a message.
 
     Args:
         message: as it came.
-        descriptor: of the memory; closed here.
+        memory: that came beside it; closed here.
 
     Raises:
         AttachmentsError: if it is no such memory, or an array does not lie in it.
     """
     try:
-        seal(descriptor, _SEALED)  # nobody shrinks it under a reader's feet
-        size = os.fstat(descriptor).st_size
-        memory = mmap.mmap(descriptor, size, flags=mmap.MAP_PRIVATE) if size else b""
+        held = memory.own()  # nobody changes it under a reader's feet
     except (OSError, ValueError, OverflowError) as error:
         raise AttachmentsError(sentence("the memory beside a message is of no use")) from error
     finally:
-        os.close(descriptor)
-    return _placed(message, memory, size)
+        memory.close()
+    return _placed(message, held, len(held))
 
 
 def _placed(value: Any, memory: Any, size: int) -> Any:

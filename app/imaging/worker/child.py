@@ -6,8 +6,8 @@ numpy, pydicom and the decoders come with the first file that needs them.
 
 import importlib
 import logging
-import socket
 import warnings
+from collections import deque
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
@@ -16,23 +16,28 @@ from typing import Any, get_type_hints
 from app.core.progress import Progress
 from app.imaging.worker.answers import PROGRESS, Answer, done, failed
 from app.imaging.worker.attachments import Attachments, opened
-from app.imaging.worker.channel import VOLUME, WorkerChannel
+from app.imaging.worker.channel import MOST_OPEN, VOLUME, WorkerChannel
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.limits import MemoryLimit, limit_time
+from app.imaging.worker.starting import connected
 from app.imaging.worker.values import Convert, reader
 
 READY = "ready"
+
+_NAMED: deque[LentMemory] = deque(maxlen=MOST_OPEN)
+"""Memory of the last answers, which the program may not have taken yet."""
 
 _AT_START = ("app.imaging.header_reading:headers_in",)
 """Imported before the child is ready: every folder needs it."""
 
 
-def main(descriptor: int) -> None:
+def main(where: str) -> None:
     """Work until the other end is closed.
 
     Args:
-        descriptor: this end of the socket pair.
+        where: this end of the connection is: what the program that started this one says.
     """
-    channel = WorkerChannel(socket.socket(fileno=descriptor))
+    channel = WorkerChannel(connected(where))
     warnings.simplefilter("ignore")  # what packages say of a file quotes its header
     logging.disable(logging.CRITICAL)
     for place in _AT_START:
@@ -45,29 +50,33 @@ def main(descriptor: int) -> None:
                 return
         limit_time()
         if message[0] == VOLUME:
-            _take_volume(channel.take_descriptor())
+            _take_volume(channel.take_memory())
         else:
             _do(channel, memory, message)
 
 
-def _take_volume(descriptor: int) -> None:
+def _take_volume(memory: LentMemory) -> None:
     from app.imaging import rescaling
 
-    rescaling.take_volume(descriptor)
+    rescaling.take_volume(memory)
 
 
 def _do(channel: WorkerChannel, memory: MemoryLimit, message: list[Any]) -> None:
     place, allowed, arguments, has_arrays = message
     if has_arrays:
-        arguments = opened(arguments, channel.take_descriptor())
+        arguments = opened(arguments, channel.take_memory())
     memory.set(allowed)
     attachments = Attachments()
     answer = _answer(place, arguments, _progress(channel), attachments, allowed)
     try:
-        descriptor = attachments.descriptor() if attachments else None
+        lent = attachments.memory() if attachments else None
     except (OSError, MemoryError):
-        answer, descriptor = failed(MemoryError(), allowed), None
-    channel.send(answer, descriptor)
+        answer, lent = failed(MemoryError(), allowed), None
+    channel.send(answer, lent)
+    if lent is not None and lent.name:
+        _NAMED.append(lent)  # it is there for as long as somebody has it
+    elif lent is not None:
+        lent.close()
 
 
 def _answer(

@@ -1,9 +1,10 @@
 """What the child may take: memory, processor time, no core dumps."""
 
 import contextlib
-import os
 from dataclasses import dataclass
 from pathlib import Path
+
+import psutil
 
 try:
     import resource
@@ -91,8 +92,7 @@ class MemoryLimit:
     def __init__(self) -> None:
         if resource is None:
             return
-        pages = int(Path("/proc/self/statm").read_text().split()[0])
-        self._own = pages * resource.getpagesize()
+        self._own = psutil.Process().memory_info().vms
         self._hard = resource.getrlimit(resource.RLIMIT_AS)[1]
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         with contextlib.suppress(OSError):  # where the machine runs out, it goes first
@@ -105,7 +105,8 @@ class MemoryLimit:
         most = self._own + allowed
         if self._hard != resource.RLIM_INFINITY:
             most = min(most, self._hard)
-        resource.setrlimit(resource.RLIMIT_AS, (most, self._hard))
+        with contextlib.suppress(ValueError, OSError):  # macOS bounds no process's memory
+            resource.setrlimit(resource.RLIMIT_AS, (most, self._hard))
 
 
 def limit_time() -> None:
@@ -120,11 +121,7 @@ def limit_time() -> None:
 def processor_seconds(pid: int) -> float:
     """Processor time that a process has used so far; infinite if there is no such process."""
     try:
-        text = Path(f"/proc/{pid}/stat").read_text()
-    except OSError:
+        times = psutil.Process(pid).cpu_times()
+    except (psutil.NoSuchProcess, psutil.AccessDenied):
         return float("inf")
-    fields = text[text.rindex(")") + 2 :].split()
-    return (int(fields[11]) + int(fields[12])) / _TICKS
-
-
-_TICKS = os.sysconf("SC_CLK_TCK")
+    return float(times.user + times.system)

@@ -17,12 +17,11 @@ from app.core.messages import sentence, sentence_of
 from app.core.progress import Progress
 from app.imaging.errors import WorkerError
 from app.imaging.worker.answers import lost as lost_error
+from app.imaging.worker.channel import MOST_OPEN
 from app.imaging.worker.jobs import Job, Result, Task
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.limits import Allowance
 from app.imaging.worker.process import ENTRY, Child, Lost
-
-_AHEAD = 8
-"""Tasks that a child has before it, so that it need not wait for the program."""
 
 _WORTH_STARTING = 0.6
 """Seconds of work left for which a second child is started; one that is up helps at once."""
@@ -41,7 +40,7 @@ class CallChildren:
 
     Args:
         lender: where they come from.
-        descriptor: memory that slices are written to.
+        memory: that slices are written to.
         tasks: all that is to be done.
         progress: of whoever asked.
         is_long: whether a second child is worth starting at once.
@@ -50,13 +49,13 @@ class CallChildren:
     def __init__(
         self,
         lender: "ImagingWorker",
-        descriptor: int | None,
+        memory: LentMemory | None,
         tasks: Sequence[Task],
         progress: Progress,
         is_long: bool = False,
     ) -> None:
         self._is_long = is_long
-        self._lender, self._descriptor = lender, descriptor
+        self._lender, self._memory = lender, memory
         self._tasks, self._progress = tasks, progress
         self._children: list[Child] = []
         self._first, self._answered = 0.0, 0
@@ -69,7 +68,7 @@ class CallChildren:
 
     def take(self, waiting: int) -> None:
         """Take a child, and a second one where that pays."""
-        if len(self._children) == 1 and waiting > _AHEAD:
+        if len(self._children) == 1 and waiting > MOST_OPEN:
             self._take(self._is_long or self._seconds_left(waiting) > _WORTH_STARTING)
         while not self._children:
             if not self._take(True):
@@ -109,8 +108,8 @@ class CallChildren:
 
     def _prepare(self, child: Child) -> None:
         try:
-            if self._descriptor is not None:
-                child.give(self._descriptor)
+            if self._memory is not None:
+                child.give(self._memory)
         except Lost as lost:
             raise WorkerError(
                 sentence("the process that reads foreign files {lost}", lost=lost)
@@ -120,7 +119,7 @@ class CallChildren:
         """Give each child something to do."""
         for child in tuple(self._children):
             try:
-                while waiting and len(child.open) < _AHEAD:
+                while waiting and len(child.open) < MOST_OPEN:
                     number = waiting.popleft()
                     child.send(self._tasks[number], number)
             except Lost as lost:
@@ -236,7 +235,7 @@ class ImagingWorker:
         self,
         tasks: Sequence[Task],
         progress: Progress,
-        descriptor: int | None = None,
+        memory: LentMemory | None = None,
         is_long: bool = False,
     ) -> Generator[tuple[int, Any], None, None]:
         """Do tasks, in any order. Close what is returned: an error leaves children at work.
@@ -245,7 +244,7 @@ class ImagingWorker:
             tasks: what to do.
             progress: cancels within a tenth of a second, and is told of tasks that tell how far
                 they are or take over a second; who asked tells it of each that is done.
-            descriptor: memory that slices are written to.
+            memory: that slices are written to.
             is_long: whether a second child is worth starting at once, and not only when the first
                 answers say so.
 
@@ -257,7 +256,7 @@ class ImagingWorker:
             WorkerError: if no child can be started.
             Cancelled: if `progress` was cancelled.
         """
-        children = CallChildren(self, descriptor, tasks, progress, is_long)
+        children = CallChildren(self, memory, tasks, progress, is_long)
         waiting = deque(range(len(tasks)))
         try:
             while waiting or children.busy:

@@ -1,23 +1,20 @@
 """One child process, seen from the program: tasks out, answers in, and a watchdog."""
 
 import contextlib
-import os
 import signal
-import socket
-import struct
 import subprocess
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from app.core.child_process import environment, module_command
 from app.core.messages import sentence
-from app.imaging.errors import WorkerError
 from app.imaging.worker.answers import DONE, PROGRESS, outcome
 from app.imaging.worker.channel import VOLUME, ChannelError, WorkerChannel
 from app.imaging.worker.jobs import Task
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.limits import processor_seconds
+from app.imaging.worker.starting import started
 from app.imaging.worker.values import reader
 
 ENTRY = "app.imaging.worker"
@@ -25,9 +22,6 @@ ENTRY = "app.imaging.worker"
 
 READY_SECONDS = 60.0
 """A child that is not ready by then is given up [s]; a machine may be slow."""
-
-_PATIENCE = struct.pack("@ll", 20, 0)
-"""Seconds and microseconds in which it must take in what it is sent (`struct timeval`)."""
 
 _GRACE = 0.2
 """Nobody is looked at more closely before that [s]."""
@@ -52,7 +46,7 @@ class Child:
     """A running child. Tasks are answered in their order; the first one open is worked on.
 
     Args:
-        module: what it runs; it is given the number of its end of the socket pair.
+        module: what it runs; it is told where its end of the connection is.
 
     Attributes:
         open: number of each task that is not answered yet, oldest first.
@@ -65,12 +59,9 @@ class Child:
 
     def __init__(self, module: str = ENTRY) -> None:
         self.open: deque[int] = deque()
-        self._tasks: deque[Task] = deque()
-        ours, theirs = socket.socketpair()
-        ours.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, _PATIENCE)
-        self._channel = WorkerChannel(ours)
-        with theirs:
-            self._process = _started(module, theirs.fileno(), self._channel)
+        self._tasks: deque[tuple[Task, LentMemory | None]] = deque()
+        self._process, end = started(module)
+        self._channel = WorkerChannel(end)
         self.ready, self.progress = False, (0.0, "")
         self._used: float | None = None
         self._mark()
@@ -91,29 +82,25 @@ class Child:
             Lost: if it is gone.
             OSError: if there is no memory for the arrays of the task.
         """
-        descriptor = task.attachments.descriptor() if task.attachments else None
+        memory = task.attachments.memory() if task.attachments else None
         if not self.open:
             self._mark()
         self.open.append(number)
-        self._tasks.append(task)
-        try:
-            self._send(task.message, descriptor)
-        finally:
-            if descriptor is not None:
-                os.close(descriptor)
+        self._tasks.append((task, memory))
+        self._send(task.message, memory)
         reader(task.job.gives)  # made while the child comes up: 20 ms, once for each type
 
-    def give(self, descriptor: int) -> None:
+    def give(self, memory: LentMemory) -> None:
         """Give it the memory that slices are written to.
 
         Raises:
             Lost: if it is gone.
         """
-        self._send([VOLUME], descriptor)
+        self._send([VOLUME], memory)
 
-    def _send(self, task: Sequence[Any], descriptor: int | None = None) -> None:
+    def _send(self, task: Sequence[Any], memory: LentMemory | None = None) -> None:
         try:
-            self._channel.send(task, descriptor)
+            self._channel.send(task, memory)
         except OSError:
             raise Lost(self._end_of_it()) from None
 
@@ -151,9 +138,12 @@ class Child:
 
     def _answered(self, message: list[Any]) -> tuple[int, Any]:
         has_arrays = message[0] == DONE and message[-1] is True
-        descriptor = self._channel.take_descriptor() if has_arrays else None
+        memory = self._channel.take_memory() if has_arrays else None
         self.progress = 0.0, ""
-        return self.open.popleft(), outcome(self._tasks.popleft().job.gives, message, descriptor)
+        task, lent = self._tasks.popleft()
+        if lent is not None:
+            lent.close()
+        return self.open.popleft(), outcome(task.job.gives, message, memory)
 
     def check(self) -> None:
         """Look whether it still gets on with its task.
@@ -174,7 +164,7 @@ class Child:
                 )
             self._mark(self._since)
         elif self.open:
-            allowed = self._tasks[0].allowed
+            allowed = self._tasks[0][0].allowed
             if computed > allowed.seconds:
                 raise Lost(
                     sentence(
@@ -193,6 +183,9 @@ class Child:
     def close(self) -> None:
         """End it at once; idempotent."""
         self._channel.close()
+        for _, lent in self._tasks:
+            if lent is not None:
+                lent.close()
         if self._process.poll() is None:
             self._process.kill()
         with contextlib.suppress(subprocess.TimeoutExpired):  # a disk that stalls keeps it
@@ -234,26 +227,3 @@ def _is_progress(message: Any) -> bool:
 
 def _is_answer(message: Any) -> bool:
     return isinstance(message, list) and bool(message) and isinstance(message[0], str)
-
-
-def _started(module: str, descriptor: int, channel: WorkerChannel) -> "subprocess.Popen[bytes]":
-    # Each thread of a library would take its share of the memory allowed.
-    own = environment(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    try:
-        return subprocess.Popen(
-            module_command(module, str(descriptor)),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,  # decoders grumble there, and parsers quote headers
-            env=own,
-            pass_fds=(descriptor,),
-            start_new_session=True,  # Ctrl+C in a terminal is the program's to handle
-        )
-    except OSError as error:
-        channel.close()
-        raise WorkerError(
-            sentence(
-                "the process that reads foreign files cannot be started: {error_strerror}",
-                error_strerror=error.strerror or error,
-            )
-        ) from error

@@ -18,6 +18,7 @@ from app.imaging.pixel_data import DECODERS, RLE
 from app.imaging.privacy.key import installation_key
 from app.imaging.series import Ignored
 from app.imaging.worker.jobs import FILL, LOAD_DECODERS, READ_HEADERS, Task
+from app.imaging.worker.lent_memory import LentMemory
 from app.imaging.worker.limits import Allowance, for_file, size_of
 from app.imaging.worker.pool import ImagingWorker, shared_worker
 from app.imaging.worker.values import reader
@@ -96,7 +97,7 @@ def fill_slices(
     headers: Sequence[SliceHeader],
     places: Sequence[int],
     dtype: np.dtype[Any],
-    descriptor: int,
+    memory: LentMemory,
     progress: Progress,
     worker: ImagingWorker | None = None,
 ) -> None:
@@ -106,7 +107,7 @@ def fill_slices(
         headers: of the slices, all of one size.
         places: where in the volume each belongs.
         dtype: int16 or float32.
-        descriptor: of that memory.
+        memory: of the volume.
         progress: told how far it is; cancels.
         worker: which one; the shared one if left out.
 
@@ -122,7 +123,7 @@ def fill_slices(
         _filling(header, place, dtype.name) for header, place in zip(headers, places, strict=True)
     ]
     is_long = sum(map(_work, headers)) > _LONG
-    run_all = (worker or shared_worker()).run(tasks, progress, descriptor, is_long)
+    run_all = (worker or shared_worker()).run(tasks, progress, memory, is_long)
     with closing(run_all) as run:
         for done, (number, outcome) in enumerate(run, 1):
             if outcome is not None:
