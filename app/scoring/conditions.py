@@ -8,6 +8,9 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from enum import StrEnum
 from typing import Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.core.messages import sentence
 
 DIAL_TOLERANCE: Final = 0.05
@@ -173,26 +176,61 @@ def comparable(a: Conditions, b: Conditions) -> tuple[str, ...]:
 def comparison_groups(attempts: Sequence[Conditions | None]) -> list[int | None]:
     """Return each attempt's group, as `comparable` decides: that of the first one it fits.
 
-    Groups count from 1 in the order of their first attempt; None has none. `comparable` looks at
-    conditions that differ in nothing but what parts no scores once only.
+    Groups count from 1 in the order of their first attempt; None has none.
     """
-    first: list[Conditions] = []
-    known: dict[Conditions, int] = {}
-    found: list[int | None] = []
-    for own in attempts:
-        if own is None:
-            found.append(None)
-            continue
-        alike = replace(own, seed=None, software="", calibration="", agreement_mm=None, computer="")
-        number = known.get(alike)
-        if number is None:
-            fits = (k for k, other in enumerate(first, 1) if not comparable(other, own))
-            number = next(fits, len(first) + 1)
-            known[alike] = number
-        if number > len(first):
-            first.append(own)
-        found.append(number)
-    return found
+    known = [one for one in attempts if one is not None]
+    tasks: dict[Conditions, int] = {}
+    codes, dial = [], []
+    for one in known:
+        task = replace(
+            one,
+            assistance=None,
+            seed=None,
+            software="",
+            calibration="",
+            agreement_mm=None,
+            computer="",
+        )
+        codes.append(tasks.setdefault(task, len(tasks)))
+        set_to = one.assistance
+        values = (
+            (None,) * 4
+            if set_to is None
+            else (set_to.mean, set_to.least, set_to.most, set_to.start)
+        )
+        dial.append([math.nan if value is None else value for value in values])
+    found = iter(groups_of_tasks(list(tasks), np.array(codes, int), np.array(dial).reshape(-1, 4)))
+    return [None if one is None else int(next(found)) for one in attempts]
+
+
+def groups_of_tasks(
+    tasks: Sequence[Conditions], codes: NDArray[np.int64], dial: NDArray[np.float64]
+) -> NDArray[np.int64]:
+    """Return each attempt's group: as `comparison_groups`, of attempts as columns.
+
+    The first attempt that is in no group yet begins one, and all that fit it follow; so each is in
+    the first group that it fits. Two that are alike are in one, whatever `comparable` says of them.
+
+    Args:
+        tasks: conditions without dial and what parts no scores.
+        codes: which of them each attempt was made under, shape (n,).
+        dial: mean, least, most and start of each; NaN where not known, shape (n, 4).
+    """
+    groups = np.zeros(len(codes), np.int64)
+    left = np.arange(len(codes))
+    told = ~np.isnan(dial[:, 0])
+    alike = np.nan_to_num(dial, nan=math.inf)
+    while len(left):
+        first = left[0]
+        task = tasks[codes[first]]
+        fits = np.array([not comparable(task, other) for other in tasks])
+        near = (np.abs(dial[left, :3] - dial[first, :3]) <= DIAL_TOLERANCE).all(axis=1)
+        same = (codes[left] == codes[first]) & (alike[left] == alike[first]).all(axis=1)
+        near = near if told[first] else ~told[left]
+        joins = same | (fits[codes[left]] & near)
+        groups[left[joins]] = groups.max() + 1
+        left = left[~joins]
+    return groups
 
 
 def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:

@@ -9,23 +9,27 @@ from __future__ import annotations
 
 import datetime
 from collections import Counter, defaultdict
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise, product
 from pathlib import Path
 from statistics import median
 from typing import Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.scoring.competence import RULE, Competence, CompetenceRule, competence
-from app.scoring.conditions import comparison_groups
+from app.scoring.conditions import Conditions, groups_of_tasks
 from app.scoring.pass_mark import is_near_mark
 from app.session.course import Course, CourseItem, courses, held_back, holding
-from app.session.index import Index, Indexed
+from app.session.index import Index
+from app.session.indexed import Attempts, Coded, Indexed, conditions_of, time_of
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
 from app.session.proficiency import IN_A_ROW, passes_in_a_row
 from app.session.signature import Signed
@@ -108,7 +112,7 @@ class ProgressBoard:
     students: tuple[Person, ...]
     items: tuple[CourseItem, ...]
     cells: Mapping[tuple[str, str], BoardCell]
-    counted: Mapping[tuple[str, str], tuple[Indexed, ...]]
+    counted: Mapping[tuple[str, str], Sequence[Indexed]]
     rule: CompetenceRule = RULE
     now: datetime.datetime | None = None
 
@@ -135,6 +139,11 @@ class ProgressBoard:
             passed, times = [bool(one.passed) for one in some], [one.time for one in some]
             self._competences[place] = competence(passed, times, self.now, self.rule)
         return self._competences.get(place)
+
+    def pass_mark(self, exercise: str) -> float | None:
+        """Return the points that the newest attempt that counts had to reach; None without one."""
+        some = [those[-1] for (_, name), those in self.counted.items() if name == exercise]
+        return max(some, key=lambda one: one.started).pass_mark if some else None
 
     def attempts_left(self, key: str, exercise: str) -> int | None:
         """Return how many attempts the course still allows at most; None without a limit."""
@@ -172,47 +181,113 @@ def progress_board(
         held: attempts whose results are not open to who looks at the board.
         rule: by which a student is called competent.
     """
-    wanted = {item.exercise: item for item in items}
-    rows = {person.key for person in students}
-    taken: dict[str, list[Indexed]] = defaultdict(list)
-    left: dict[tuple[str, str], Counter[str]] = defaultdict(Counter)
-    void: dict[tuple[str, str], list[str]] = defaultdict(list)
-    for one in attempts:
-        key, item = one.student, wanted.get(one.exercise)
-        if item is None or key not in rows:
-            continue
-        said = remarks.get(one.id)
-        reason = (
-            sentence("not released yet") if one.id in held else _why_not_counted(one, item, said)
-        )
-        if reason:
-            left[key, one.exercise][reason] += 1
-            if said is not None and said.void:
-                void[key, one.exercise].append(said.void)
-        else:
-            taken[one.exercise].append(one)
-    counted: dict[tuple[str, str], list[Indexed]] = defaultdict(list)
-    for exercise, some in taken.items():
-        groups = comparison_groups([one.conditions for one in some])
-        most = _largest(groups)
-        for one, group in zip(some, groups, strict=True):
-            key = one.student
-            if group == most:
-                counted[key, exercise].append(one)
-            else:
-                left[key, exercise][sentence("made under other conditions than most")] += 1
-    cells = {
-        (person.key, item.exercise): _cell(
-            counted[person.key, item.exercise],
-            left[person.key, item.exercise],
-            now,
-            tuple(void[person.key, item.exercise]),
-        )
-        for person in students
-        for item in items
+    whole, of_exercise = Attempts.of(attempts), {item.exercise: item for item in items}
+    columns, rows = numbered(of_exercise), numbered(one.key for one in students)
+    if not rows or not columns:
+        return ProgressBoard(tuple(students), tuple(items), {}, {}, rule, now)
+    column, row = whole.exercise.within(columns), whole.student.within(rows)
+    on_board = np.flatnonzero((column >= 0) & (row >= 0))
+    some, cell = whole.taken(on_board), (row * len(columns) + column)[on_board]
+    reasons = _why_not(some, list(of_exercise.values()), column[on_board], remarks, held)
+    for exercise, k in columns.items():
+        taken = np.flatnonzero((column[on_board] == k) & (reasons.codes == 0))
+        if len(taken):
+            used, codes = np.unique(some.task.codes[taken], return_inverse=True)
+            tasks = [conditions_of(some.task.texts[code], exercise) for code in used]
+            groups = groups_of_tasks(tasks, codes, some.dial[taken])
+            reasons.codes[taken[groups != _largest(groups)]] = 1
+    in_cells = np.argsort(cell, kind="stable")
+    ends = np.searchsorted(cell[in_cells], np.arange(len(rows) * len(columns) + 1))
+    places = list(product(rows, columns))
+    members = {
+        place: in_cells[begin:end]
+        for place, (begin, end) in zip(places, pairwise(ends.tolist()), strict=True)
+        if end > begin
     }
-    kept = {place: tuple(some) for place, some in counted.items() if some}
-    return ProgressBoard(tuple(students), tuple(items), cells, kept, rule, now)
+    counted = {place: ks[reasons.codes[ks] == 0] for place, ks in members.items()}
+    counted = {place: ks for place, ks in counted.items() if len(ks)}
+    left = {place: ks[reasons.codes[ks] > 0] for place, ks in members.items()}
+    trends = _trends(some.total, counted)
+    void = {name: said.void for name, said in remarks.items() if said.void}
+    empty = np.empty(0, np.int64)
+    cells = {
+        place: _cell(
+            some,
+            counted.get(place, empty),
+            Counter(reasons.texts[code] for code in reasons.codes[left.get(place, empty)].tolist()),
+            trends.get(place),
+            now,
+            tuple(void[some.ids[k]] for k in left.get(place, empty).tolist() if some.ids[k] in void)
+            if void
+            else (),
+        )
+        for place in places
+    }
+    return ProgressBoard(tuple(students), tuple(items), cells, Counted(some, counted), rule, now)
+
+
+def numbered(names: Iterable[str]) -> dict[str, int]:
+    """Return the place of each name, the first of several."""
+    return {name: number for number, name in enumerate(dict.fromkeys(names))}
+
+
+@dataclass(frozen=True)
+class Counted(Mapping[tuple[str, str], "Sequence[Indexed]"]):
+    """Attempts that count, by key of the student and id of the exercise; made when asked for."""
+
+    attempts: Attempts
+    places: Mapping[tuple[str, str], NDArray[np.int64]]
+
+    def __getitem__(self, place: tuple[str, str]) -> Sequence[Indexed]:
+        return self.attempts.taken(self.places[place])
+
+    def __iter__(self) -> Iterator[tuple[str, str]]:
+        return iter(self.places)
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+
+def _why_not(
+    some: Attempts,
+    items: Sequence[CourseItem],
+    column: NDArray[np.int64],
+    remarks: Mapping[str, Remarks],
+    held: Container[str],
+) -> Coded:
+    """Return why attempts count nowhere: number 0 where they do; 1 is for other conditions.
+
+    Asked once for all that are alike in what decides; and for each of which something was said.
+    """
+    known = {"": 0, sentence("made under other conditions than most"): 1}
+    alike = np.zeros(len(some), np.int64)
+    for part in (
+        some.verdict.codes,
+        some.stands,
+        some.counts,
+        some.version,
+        some.task.codes,
+        column,
+    ):
+        _, codes = np.unique(part, return_inverse=True)
+        _, alike = np.unique(alike * (codes.max(initial=0) + 1) + codes, return_inverse=True)
+    _, first = np.unique(alike, return_index=True)
+
+    def number(place: int, remark: Remarks | None) -> int:
+        item = items[column[place]]
+        why = _why_not_counted(some[place], some.task_of(place), item, remark)
+        return known.setdefault(why, len(known))
+
+    codes = np.array([number(place, None) for place in first.tolist()] or [0], np.int64)
+    codes = codes[alike]
+    special = {name for name, said in remarks.items() if said.void or said.excess}
+    if special or held:
+        for place, name in enumerate(some.ids):
+            if name in held:
+                codes[place] = known.setdefault(sentence("not released yet"), len(known))
+            elif name in special:
+                codes[place] = number(place, remarks[name])
+    return Coded(tuple(known), codes)
 
 
 def board_of(
@@ -223,7 +298,7 @@ def board_of(
     now: datetime.datetime | None = None,
     progress: Progress | None = None,
     released: bool = False,
-) -> tuple[ProgressBoard, list[Indexed]]:
+) -> tuple[ProgressBoard, Attempts]:
     """Return the board of a folder of records, and all attempts in it, oldest first.
 
     Args:
@@ -240,15 +315,14 @@ def board_of(
     """
     index = Index(folder)
     index.refresh(progress)
-    attempts = index.attempts()
+    attempts = Attempts.of(index.attempts())
     students = [
         person
         for person in people.everybody()
         if (not group or group in person.groups) and (course is None or course.takes(person))
     ]
-    known = people.pseudonyms()
-    own = [one for one in attempts if one.student in known]
-    items = course.items if course is not None else every_item([one for one in own if one.stands])
+    own = attempts.of_students(list(people.pseudonyms()))
+    items = course.items if course is not None else every_item(own)
     now = now or datetime.datetime.now(datetime.UTC)
     asked = ((one.id, one.student, one.exercise, one.version) for one in own)
     held = held_back(asked) if released else {}
@@ -258,11 +332,12 @@ def board_of(
 
 
 def every_item(attempts: Sequence[Indexed]) -> list[CourseItem]:
-    """Return an item for each exercise that was attempted, in its newest version: no course."""
-    newest: dict[str, int] = {}
-    for one in attempts:
-        if one.exercise:
-            newest[one.exercise] = max(one.version, newest.get(one.exercise, 1))
+    """Return an item for each exercise with an attempt that stands, in its newest version."""
+    some, newest = Attempts.of(attempts), dict[str, int]()
+    for code, name in enumerate(some.exercise.texts):
+        versions = some.version[(some.exercise.codes == code) & some.stands]
+        if name and len(versions):
+            newest[name] = max(1, int(versions.max()))
     found = []
     for name, version in sorted(newest.items()):
         try:
@@ -322,13 +397,14 @@ def standings(
     taken, (some_courses, _) = {one.id: one for one in exercises}, courses()
     found: dict[str, Standing] = {}
     passed: dict[str, dict[str, list[bool]]] = defaultdict(lambda: defaultdict(list))
-    for one in index.attempts():
+    attempts = Attempts.of(index.attempts())
+    for place, one in enumerate(attempts):
         exercise = taken.get(one.exercise)
         mine = one.student == student.key if student is not None else may_see(one.student)
         if exercise is None or not mine:
             continue
         item, said = CourseItem(exercise=exercise.id, version=exercise.version), remarks.get(one.id)
-        if _why_not_counted(one, item, said):
+        if _why_not_counted(one, attempts.task_of(place), item, said):
             continue
         released = said is not None and said.released
         held = holding(some_courses, known.get(one.student), one.exercise, one.version, released)
@@ -348,7 +424,9 @@ def standings(
     return found
 
 
-def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -> str:
+def _why_not_counted(
+    entry: Indexed, known: Conditions, item: CourseItem, answer: Remarks | None
+) -> str:
     if entry.verdict == Signed.ALTERED:
         return sentence("altered after it was signed")
     if answer is not None and answer.void:
@@ -358,7 +436,6 @@ def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -
     if not entry.stands:
         return sentence("not sealed by this station")
     if not entry.counts:
-        known = entry.conditions
         if not known.by_person:
             by_arm = known.hand == "arm"
             return sentence("carried out by the arm") if by_arm else sentence("scripted")
@@ -368,54 +445,64 @@ def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -
         return sentence("emulated robot") if emulated else sentence("not scored or void")
     if entry.version != item.version:
         return sentence("version {entry_version} of the exercise", entry_version=entry.version)
-    if item.content and entry.conditions.content != item.content:
+    if item.content and known.content != item.content:
         return sentence("the exercise said something else")
     return ""
 
 
-def _largest(groups: Sequence[int | None]) -> int | None:
+def _largest(groups: NDArray[np.int64]) -> int:
     """Return the group with the most members; of equal ones that with the newest attempt."""
-    counts = Counter(groups)
-    last = {group: place for place, group in enumerate(groups)}
-    return max(counts, key=lambda group: (counts[group], last[group]), default=None)
+    counts = np.bincount(groups)
+    last = np.zeros(len(counts), np.int64)
+    np.maximum.at(last, groups, np.arange(len(groups)))
+    return int(np.lexsort((last, counts))[-1])
 
 
 def _cell(
-    some: Sequence[Indexed], left: Counter[str], now: datetime.datetime, void: tuple[str, ...]
+    attempts: Attempts,
+    places: NDArray[np.int64],
+    left: Counter[str],
+    trend: float | None,
+    now: datetime.datetime,
+    void: tuple[str, ...],
 ) -> BoardCell:
     others, why = left.total(), tuple(sorted(left.items()))
-    if not some:
+    if not len(places):
         return BoardCell(others=others, why=why, void=void)
-    totals = [one.total or 0.0 for one in some]
+    totals = np.nan_to_num(attempts.total[places])
+    best = int(places[totals.argmax()])
     return BoardCell(
-        attempts=len(some),
-        best=max(totals),
-        last=totals[-1],
-        trend=_trend(totals[-TREND_OF:]),
-        passed=any(one.passed for one in some),
-        since=now - some[-1].time,
+        attempts=len(places),
+        best=float(totals.max()),
+        last=float(totals[-1]),
+        trend=trend,
+        passed=bool((attempts.passed[places] == 1).any()),
+        since=now - time_of(attempts.started[places[-1]]),
         others=others,
         why=why,
         void=void,
-        near_mark=_is_near_mark(max(some, key=lambda one: one.total or 0.0)),
+        near_mark=bool(attempts.has_error[best])
+        and is_near_mark(attempts[best].summary.score or {}),
     )
 
 
-def _is_near_mark(attempt: Indexed) -> bool:
-    """Return whether an attempt lies within the error of measurement of its pass mark.
+def _trends(
+    total: NDArray[np.float64], cells: Mapping[tuple[str, str], NDArray[np.int64]]
+) -> dict[tuple[str, str], float]:
+    """Medians of the slopes between all pairs, after Theil (1950) and Sen (1968).
 
-    Only where a mark says its error is the document read: a board has many cells.
+    Over the last `TREND_OF` of each cell, three at least; those of equal number all at once.
     """
-    has_error = '"score_error"' in attempt.document
-    return has_error and is_near_mark(attempt.summary.score or {})
-
-
-def _trend(totals: Sequence[float]) -> float | None:
-    """Median of the slopes between all pairs, after Theil (1950) and Sen (1968)."""
-    if len(totals) < 3:
-        return None
-    return median(
-        (totals[b] - totals[a]) / (b - a)
-        for a in range(len(totals))
-        for b in range(a + 1, len(totals))
-    )
+    found: dict[tuple[str, str], float] = {}
+    for number in range(3, TREND_OF + 1):
+        alike = {
+            place: ks[-number:]
+            for place, ks in cells.items()
+            if len(ks) == number or (number == TREND_OF and len(ks) > number)
+        }
+        if alike:
+            totals = np.nan_to_num(total[np.stack(list(alike.values()))])
+            a, b = np.triu_indices(number, 1)
+            slopes = np.median((totals[:, b] - totals[:, a]) / (b - a), axis=1)
+            found.update(zip(alike, slopes.tolist(), strict=True))
+    return found

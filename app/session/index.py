@@ -1,10 +1,12 @@
 """The index of attempts: an SQLite file beside the records, which it can be made of at any time.
 
 The records are the truth. A list asks `refresh` first: what has come, gone or changed since the
-last look (by size and time of record and signature) is read, all else is taken as it is; `rebuild`
-forgets all and reads every record. Both end with the same rows. A program that is killed in between
-leaves whole rows only, and the next look reads what is missing. Where the folder cannot be written
-the index is kept in memory.
+last look is read, all else is taken as it is; `rebuild` forgets all and reads every record. Both
+end with the same rows. One listing of the folder tells what came, went or was put in the place of
+another (names and inodes); size and time tell what was written where it lies. They are asked for of
+attempts that have no end and of `LOOKED_AT` others, drawn by chance where there are more. A program
+that is killed in between leaves whole rows only, and the next look reads what is missing. Where the
+folder cannot be written the index is kept in memory.
 
 Nothing is believed of a row that this station has not sealed (a keyed MAC over all of it): its
 record is read instead. Where a station seals, an attempt counts if its signature is verified or the
@@ -15,118 +17,56 @@ from __future__ import annotations
 
 import hashlib
 import hmac
-import json
 import os
-import time
-from collections.abc import Callable, Mapping, Sequence
+import secrets
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime
-from functools import cached_property, lru_cache
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from app.core.json_values import finite
+import numpy as np
+
 from app.core.messages import sentence
 from app.core.progress import Progress
-from app.scoring.conditions import Conditions, DeviceKind
-from app.session.admission import Admission, admissions, with_admission
+from app.session.admission import admissions
 from app.session.database import BUSY_SECONDS, Database, DatabaseError, lockable
+from app.session.errors import SessionNotFoundError
+from app.session.index_pages import PAGE, IndexPage, IndexPages, attempts_of, dissolve
+from app.session.index_records import Listing, listing, mark_of, rows_of
+from app.session.indexed import Attempts, Texts
+from app.session.indexed import Indexed as Indexed
 from app.session.people import People
 from app.session.sealed_rows import (
+    MARK,
     SEALED,
     STARTED,
-    STUDENT,
-    VERDICT,
+    UNDER,
     Row,
     Sealer,
     attempts_table,
     seals_table,
 )
-from app.session.sidecar import Cached, fresh_kept, read_kept
-from app.session.signature import Signed, judged, signature_file, vouched_for
+from app.session.sidecar import fresh_kept, read_kept
 from app.session.station import StationKey, seals_here, this_station
 from app.session.stations import mark_of_stations
-from app.session.store import SUFFIX, records, settled
-from app.session.summary import UNFINISHED, Summary
+from app.session.store import settled
+from app.session.summary import UNFINISHED
 
 if TYPE_CHECKING:
-    pass
+    from sqlalchemy import Connection
 
 INDEX: Final = "index.sqlite"
 """Name of the file in the folder of the records."""
 
-_VERSION: Final = 3
+_VERSION: Final = 4
 _AT_ONCE: Final = 100
 """Rows that are written in one transaction."""
 
-_STILL_WRITTEN: Final = 10.0
-"""An unfinished record that changed within this time [s] is under way and comes in later."""
-
-
-@dataclass(frozen=True)
-class Indexed:
-    """One attempt in the index.
-
-    Attributes:
-        id: of the attempt.
-        started: ISO 8601, UTC.
-        student: as the record names who did it.
-        exercise: id.
-        version: of the exercise.
-        state: `ended`, `aborted`, `unfinished` or `broken`.
-        duration: [s].
-        total: points; None where it was not scored, is void or was altered after it was signed.
-        passed: whether the score passes; None without one.
-        verdict: of the signature.
-        counts: whether it counts for a person: scored, by a person, not emulated, no
-            drill, and it `stands`.
-        under: what the score was made under, as text; empty where nothing is known.
-        document: the summary as `Summary.document` gives it, as text.
-        stands: whether this station vouches for it: verified, admitted by the instructor, or not
-            altered where no station seals. What does not stand neither passes nor counts.
-    """
-
-    id: str
-    started: str
-    student: str
-    exercise: str
-    version: int
-    state: str
-    duration: float
-    total: float | None
-    passed: bool | None
-    verdict: str
-    counts: bool
-    under: str
-    document: str
-    stands: bool = field(default=True, compare=False)
-
-    @cached_property
-    def summary(self) -> Summary:
-        """The attempt as lists show it."""
-        summary = Summary.of(json.loads(self.document), self.id)
-        return replace(summary, signature=self.verdict)
-
-    @cached_property
-    def conditions(self) -> Conditions:
-        """Return what the score was made under."""
-        return _conditions_of(self.under) if self.under else Conditions(self.exercise)
-
-    @property
-    def time(self) -> datetime:
-        """Return when it began; the beginning of 1970 where the record does not say."""
-        try:
-            found = datetime.fromisoformat(self.started)
-        except ValueError:
-            return datetime.fromtimestamp(0.0, UTC)
-        return found if found.tzinfo else found.replace(tzinfo=UTC)
-
-
-@lru_cache(maxsize=4096)
-def _conditions_of(under: str) -> Conditions:
-    """Read conditions from their text; most attempts of a group were made under the same."""
-    return Conditions.of(json.loads(under))
+LOOKED_AT: Final = 1024
+"""Of so many records at most a look asks for size and time, those without an end apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,11 +113,6 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
     ]
 
 
-Mark = tuple[int, int, int, str]
-"""Size and time of a record, time of its signature, and the station whose key judged that, with
-the stations that it knew."""
-
-
 class Index:
     """The index of one folder of records.
 
@@ -194,6 +129,7 @@ class Index:
         where = path if usable else None
         self._busy = busy
         self.database = self._opened(where)
+        self._pages, self._loose_rows = IndexPages(this_station()), 0
 
     def _opened(self, path: Path | None) -> Database:
         tables = lambda: attempts_table().metadata  # noqa: E731
@@ -226,19 +162,26 @@ class Index:
 
     def _refresh(self, progress: Progress) -> Refreshed:
         key = this_station()
-        there, known = self._there(key), self._known()
-        changed = [name for name, mark in there.items() if known.get(name) != mark]
-        gone = [name for name in known if name not in there]
-        read = 0
-        for begin in range(0, len(changed) + 1, _AT_ONCE):
+        there, known = listing(self.folder), self._known(key)
+        changed, gone = [], []
+        if there != known:
+            changed = sorted(name for name, inodes in there.items() if known.get(name) != inodes)
+            gone = [name for name in known if name not in there]
+        changed += self._written(there, known, key)
+        read, station = 0, mark_of_stations(key)
+        for begin in range(0, max(len(changed), len(gone)) + 1, _AT_ONCE):
             rows: list[dict[str, Any]] = []
             for name in changed[begin : begin + _AT_ONCE]:
                 progress.report((begin + len(rows)) / len(changed), name)
-                rows += _rows(self.folder, name, there[name], read_kept, key)
-            if rows or (gone and begin == 0):
-                self._put(rows, gone if begin == 0 else ())
+                mark = mark_of(self.folder, name, there, station)
+                rows += rows_of(self.folder, name, mark, read_kept, key) if mark else []
+            if rows or gone[begin : begin + _AT_ONCE]:
+                self._put(rows, gone[begin : begin + _AT_ONCE])
             read += len(rows)
-        return Refreshed(read, len(gone), len(self._known()))
+        if changed or gone:
+            known = self._known(key)
+        self._turn_pages()
+        return Refreshed(read, len(gone), len(known))
 
     def rebuild(self, progress: Progress | None = None) -> Refreshed:
         """Make the index anew from the records, whatever it and their summaries say.
@@ -248,13 +191,14 @@ class Index:
         """
         settled(self.folder)
         progress, key = progress or Progress(), this_station()
-        there = self._there(key)
+        there, station = listing(self.folder), mark_of_stations(key)
         rows: list[dict[str, Any]] = []
-        for number, (name, mark) in enumerate(there.items()):
+        for number, name in enumerate(sorted(there)):
             progress.report(number / len(there), name)
-            rows += _rows(self.folder, name, mark, fresh_kept, key)
+            mark = mark_of(self.folder, name, there, station)
+            rows += rows_of(self.folder, name, mark, fresh_kept, key) if mark else []
         try:
-            gone = len(set(self._known()) - set(there))
+            gone = len(set(self._known(key)) - set(there))
             self._put(rows, None)
         except DatabaseError as error:
             if error.newer or error.busy or error.unwritable:
@@ -262,9 +206,11 @@ class Index:
             self.database.discard()
             gone = 0
             self._put(rows, None)
+        self._known(key)
+        self._turn_pages()
         return Refreshed(len(rows), gone, len(rows))
 
-    def attempts(self, students: Sequence[str] | None = None) -> list[Indexed]:
+    def attempts(self, students: Sequence[str] | None = None) -> Attempts:
         """Return what is in the index, oldest first; only that of some students if asked.
 
         Rows that this station has not sealed are read anew from their records.
@@ -275,16 +221,13 @@ class Index:
         key, admitted = this_station(), admissions()
         # a key that somebody took away: what is unsigned counts no more than before
         seals = seals_here() or bool(People().wrapped_key())
-        rows, odd = self._sealed_rows(key)
-        if odd:
-            rows += self._mend(odd, key)
-            rows.sort(key=lambda row: (row[STARTED], row[0]))
-        asked = None if students is None else set(students)
-        return [
-            _indexed(row, seals, admitted.get(row[0]))
-            for row in rows
-            if asked is None or row[STUDENT] in asked
-        ]
+        with self.database.read() as connection:
+            pages, loose = self._look(connection, key), self._loose(connection)
+        rows, odd = _sealed(loose, key)
+        rows += self._mend(odd, key) if odd else []
+        found = attempts_of([*pages.sound.values(), IndexPage.of(rows)], _no_texts, seals, admitted)
+        found = replace(found, texts=self._texts(found.ids))
+        return found if students is None else found.of_students(students)
 
     def problems_of(self, path: Path) -> list[str]:
         """Say in which values the row of a record is not what the record gives; changes nothing.
@@ -295,12 +238,15 @@ class Index:
             DatabaseError: if the index cannot be read.
         """
         key = this_station()
-        mark = self._there(key).get(path.stem)
-        found = next((row for row in self._rows_as_they_are() if row[0] == path.stem), None)
-        if mark is None or found is None or found[1:5] != mark:
+        there = listing(self.folder)
+        with self.database.read() as connection:
+            found = next(iter(_rows_in(connection, [path.stem])), None)
+        if found is None or found[MARK] != mark_of(
+            self.folder, path.stem, there, mark_of_stations(key)
+        ):
             return []
         row = dict(zip(SEALED, found, strict=False))
-        right = next(iter(_rows(self.folder, path.stem, mark, read_kept, key)), None)
+        right = next(iter(self._rows_of([path.stem], there, key)), None)
         if right is None:
             return []
         other = [name for name in SEALED if row[name] != right[name] and name != "record"]
@@ -330,62 +276,106 @@ class Index:
         return digest.hexdigest()
 
     # --- inside -----------------------------------------------------------------------------------
-    def _rows_as_they_are(self) -> list[Row]:
-        """Return all rows as they stand, oldest first: what a seal is over, and the seal at last.
+    def _look(self, connection: Connection, key: StationKey | None) -> IndexPages:
+        if self._pages.key != key:
+            self._pages = IndexPages(key)
+        self._pages.look(connection)
+        return self._pages
 
-        Digest of the record and seal are None where there is none.
-        """
-        from sqlalchemy import select
+    def _loose(self, connection: Connection) -> list[Row]:
+        """Return the rows that are in no page, or in one that this station has not sealed."""
+        pages = self._pages
+        broken = ",".join(map(str, pages.broken))
+        odd = "page >= ''"  # texts and bytes, which SQLite sorts after all numbers
+        wanted = f"SELECT id FROM seals WHERE page IS NULL OR {odd} OR page IN ({broken})"
+        ids = [str(row[0]) for row in connection.exec_driver_sql(wanted)]
+        every = list(dict.fromkeys(ids + pages.let_go(ids)))
+        self._loose_rows = len(every)
+        return _rows_in(connection, every)
 
-        table, seals = attempts_table(), seals_table()
-        columns = [*table.columns, seals.c.record, seals.c.seal]
-        wanted = select(*columns).outerjoin(seals, table.c.id == seals.c.id)
+    def _known(self, key: StationKey | None) -> Listing:
+        """Return inodes by attempt, of those that were judged as this station judges now."""
+        station = mark_of_stations(key)
         with self.database.read() as connection:
-            found = connection.execute(wanted.order_by(table.c.started, table.c.id))
-            return [tuple(row) for row in found]
+            pages, loose = self._look(connection, key), self._loose(connection)
+        known: Listing = {}
+        for page in (*pages.sound.values(), IndexPage.of([row[:-1] for row in loose])):
+            inodes = (page.numbers[name].tolist() for name in ("inode", "signed_inode"))
+            known.update(zip(page.texts["id"], zip(*inodes, strict=True), strict=True))
+            judged_by = page.coded["station"]
+            if judged_by.texts != (station,):
+                other = np.flatnonzero(judged_by.within({station: 1}) < 0)
+                known.update((page.texts["id"][k], (-1, -1)) for k in other.tolist())
+        return known
 
-    def _sealed_rows(self, key: StationKey | None) -> tuple[list[Row], list[str]]:
-        """Return the rows that this station has sealed, and the ids of the others."""
-        rows, odd, seal_of = [], [], Sealer(key)
-        for row in self._rows_as_they_are():
-            if hmac.compare_digest(str(row[-1]).encode(), seal_of(row[:-1]).encode()):
-                rows.append(row)
-            else:
-                odd.append(str(row[0]))
-        return rows, odd
+    def _written(self, there: Listing, known: Listing, key: StationKey | None) -> list[str]:
+        """Return attempts that were written where they lie: of those that have no end, and some."""
+        names = list(there)
+        begin = secrets.randbelow(len(names)) if len(names) > LOOKED_AT else 0
+        some = islice(chain(names[begin:], names), min(LOOKED_AT, len(names)))
+        with self.database.read() as connection:
+            endless = "SELECT id FROM attempts WHERE state = ?"
+            rows = connection.exec_driver_sql(endless, (UNFINISHED,))
+            asked = dict.fromkeys(chain(some, (str(row[0]) for row in rows)))
+            same = [name for name in asked if name in there and known.get(name) == there[name]]
+            marks = {str(row[0]): tuple(row[1:]) for row in _marks_in(connection, same)}
+        station = mark_of_stations(key)
+        of = {name: mark_of(self.folder, name, there, station) for name in same}
+        return [name for name, mark in of.items() if mark is not None and marks.get(name) != mark]
+
+    def _turn_pages(self) -> None:
+        """Put loose rows into pages once there are enough, and where that can be."""
+        key = this_station()
+        if self._loose_rows < PAGE:
+            return
+        with suppress(DatabaseError), self.database.write() as connection:
+            self._look(connection, key)
+            rows, _ = _sealed(self._loose(connection), key)
+            dissolve(connection, (), self._pages.broken)
+            self._pages.put(connection, rows)
+
+    def _texts(self, ids: Sequence[str]) -> Texts:
+        """Return what reads the texts of attempts, some neighbours at a time."""
+
+        @lru_cache(maxsize=4)
+        def neighbours(number: int) -> dict[str, tuple[str, str]]:
+            some, key = ids[number * PAGE : (number + 1) * PAGE], this_station()
+            with self.database.read() as connection:
+                rows, _ = _sealed(_rows_in(connection, some), key)
+            odd = set(some) - {row[0] for row in rows}
+            rows += self._mend(sorted(odd), key) if odd else []
+            return {row[0]: (row[UNDER], row[UNDER + 1]) for row in rows}
+
+        def read(place: int) -> tuple[str, str]:
+            found = neighbours(place // PAGE).get(ids[place])
+            if found is None:
+                raise SessionNotFoundError(
+                    sentence("the attempt {id} has gone meanwhile: look again", id=ids[place])
+                )
+            return found
+
+        return read
 
     def _mend(self, names: Sequence[str], key: StationKey | None) -> list[Row]:
         """Read records anew, and write their rows where the index can be written."""
-        there, rows = self._there(key), []
-        for name in names:
-            if name in there:
-                rows += _rows(self.folder, name, there[name], read_kept, key)
+        there = listing(self.folder)
+        rows = self._rows_of(names, there, key)
         with suppress(DatabaseError):
             self._put(rows, [name for name in names if name not in there])
         return [tuple(row[name] for name in SEALED) for row in rows]
 
-    def _there(self, key: StationKey | None) -> dict[str, Mark]:
-        """Return the marks of the records in the folder now."""
-        station, marks = mark_of_stations(key), {}
-        for path in records(self.folder):
-            try:
-                stat = path.stat()
-            except OSError:
-                continue  # it has gone meanwhile
-            try:
-                signed = signature_file(path).stat().st_mtime_ns
-            except OSError:
-                signed = 0
-            marks[path.stem] = (stat.st_size, stat.st_mtime_ns, signed, station)
-        return marks
-
-    def _known(self) -> dict[str, Mark]:
-        from sqlalchemy import select
-
-        c = attempts_table().c
-        wanted = select(c.id, c.size, c.modified_ns, c.signed_ns, c.station)
-        with self.database.read() as connection:
-            return {row[0]: (row[1], row[2], row[3], row[4]) for row in connection.execute(wanted)}
+    def _rows_of(
+        self, names: Sequence[str], there: Listing, key: StationKey | None
+    ) -> list[dict[str, Any]]:
+        """Return the rows of records; none of one that has gone or is under way."""
+        station = mark_of_stations(key)
+        marks = {name: mark_of(self.folder, name, there, station) for name in names}
+        return [
+            row
+            for name, mark in marks.items()
+            if mark is not None
+            for row in rows_of(self.folder, name, mark, read_kept, key)
+        ]
 
     def _put(self, rows: Sequence[Mapping[str, Any]], gone: Sequence[str] | None) -> None:
         """Write rows and take those out that have gone; None takes out all others."""
@@ -394,9 +384,16 @@ class Index:
 
         seal_of = Sealer(this_station())
         sealed = [
-            dict(row) | {"seal": seal_of(tuple(row[name] for name in SEALED))} for row in rows
+            dict(row) | {"seal": seal_of(tuple(row[name] for name in SEALED)), "page": None}
+            for row in rows
         ]
+        ids = [str(row["id"]) for row in rows]
         with self.database.write() as connection:
+            if gone is None:
+                connection.exec_driver_sql("DELETE FROM pages")
+            for begin in range(0, len(ids) + len(gone or ()), _AT_ONCE):
+                both = [*ids, *(gone or ())][begin : begin + _AT_ONCE]
+                dissolve(connection, both, self._pages.numbers_of(both))
             for table in (attempts_table(), seals_table()):
                 if gone is None:
                     connection.execute(delete(table))
@@ -410,55 +407,42 @@ class Index:
                     connection.execute(put.on_conflict_do_update(["id"], set_=new), part)
 
 
-def _rows(
-    folder: Path,
-    name: str,
-    mark: Mark,
-    kept_of: Callable[[Path], Cached],
-    key: StationKey | None,
-) -> list[dict[str, Any]]:
-    """Return the row of a record; none of one that is under way."""
-    path = folder / f"{name}{SUFFIX}"
-    kept = kept_of(path)
-    summary = judged(path, kept, key)
-    if summary.state == UNFINISHED and time.time() - mark[1] * 1e-9 < _STILL_WRITTEN:
-        return []
-    score, known = summary.score or {}, summary.conditions
-    total = None if score.get("total") is None else float(score["total"])
-    person = known is not None and known.by_person and known.kind is not DeviceKind.EMULATED
-    person = person and not (known is not None and known.drill)
-    return [
-        {
-            "id": name,
-            "size": mark[0],
-            "modified_ns": mark[1],
-            "signed_ns": mark[2],
-            "station": mark[3],
-            "started": summary.started,
-            "student": summary.student,
-            "exercise": summary.exercise_id,
-            "version": known.version if known is not None else 0,
-            "state": summary.state,
-            "duration": float(summary.duration),
-            "total": total,
-            "passed": score.get("passed") if total is not None else None,
-            "verdict": summary.signature,
-            "counts": person and total is not None and not score.get("void_reason"),
-            "under": "" if known is None else json.dumps(finite(known.document()), sort_keys=True),
-            "document": json.dumps(summary.document(), sort_keys=True, ensure_ascii=False),
-            "record": kept.sha256,
-        }
-    ]
+def _rows_in(connection: Connection, ids: Sequence[str]) -> list[Row]:
+    """Return rows as they stand: what a seal is over, and the seal at last.
+
+    Digest of the record and seal are None where there is none.
+    """
+    from sqlalchemy import select
+
+    table, seals = attempts_table(), seals_table()
+    columns = [*table.columns, seals.c.record, seals.c.seal]
+    wanted, found = select(*columns).outerjoin(seals, table.c.id == seals.c.id), []
+    for begin in range(0, len(ids), PAGE):
+        some = wanted.where(table.c.id.in_(ids[begin : begin + PAGE]))
+        found += [tuple(row) for row in connection.execute(some)]
+    return sorted(found, key=lambda row: (row[STARTED], row[0]))
 
 
-def _indexed(row: Row, seals: bool, admitted: Admission | None) -> Indexed:
-    """Return an attempt with what this station says of it now."""
-    verdict, record = row[VERDICT], row[len(SEALED) - 1]
-    if admitted is not None:
-        verdict = with_admission(verdict, record, admitted)
-    stands = vouched_for(verdict) if seals else verdict != Signed.ALTERED
-    values = row[STARTED : len(SEALED) - 1]
-    found = Indexed(*(row[0], *values, stands))
-    if not stands:
-        return replace(found, counts=False, passed=None)
-    return found if verdict == row[VERDICT] else replace(found, verdict=verdict)
+def _marks_in(connection: Connection, ids: Sequence[str]) -> Iterator[Row]:
+    """Return id and mark of rows as they stand."""
+    names = ", ".join(("id", *SEALED[MARK]))
+    for begin in range(0, len(ids), PAGE):
+        some = tuple(ids[begin : begin + PAGE])
+        held = ",".join("?" * len(some))
+        wanted = f"SELECT {names} FROM attempts WHERE id IN ({held})"
+        yield from map(tuple, connection.exec_driver_sql(wanted, some))
+
+
+def _sealed(rows: Sequence[Row], key: StationKey | None) -> tuple[list[Row], list[str]]:
+    """Return the rows that this station has sealed, without the seal, and the ids of the others."""
+    good, odd, seal_of = [], [], Sealer(key)
+    for row in rows:
+        if hmac.compare_digest(str(row[-1]).encode(), seal_of(row[:-1]).encode()):
+            good.append(row[:-1])
+        else:
+            odd.append(str(row[0]))
+    return good, odd
+
+
+def _no_texts(place: int) -> tuple[str, str]:
+    raise LookupError(place)

@@ -9,7 +9,7 @@ of records.
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Final
@@ -58,6 +58,7 @@ class Proposal:
         course: title of the course that it follows; empty without one.
         level: of the proposed exercise.
         tries: attempts in a row that did not pass; of a drill, those of that day with a score.
+        closed: why the same exercise may not be begun again; empty where it may.
     """
 
     exercise: str
@@ -68,6 +69,7 @@ class Proposal:
     course: str = ""
     level: int = 0
     tries: int = 0
+    closed: str = ""
 
 
 def propose(
@@ -316,6 +318,7 @@ def around(
         proposal = _yourself(done, exercises, refusal)
     else:
         proposal = propose(done, score, seen, exercises, course, refusal, held)
+        proposal = replace(proposal, closed=refusal(done) if done else "")
     found = () if held or under is None else rivals(attempts, shown.id, under, same, is_open)
     return Around(proposal, tuple((one, same(one.student)) for one in found[:MOST_RIVALS]))
 

@@ -27,7 +27,6 @@ from app.scoring.reliability import (
     within_student_sd,
 )
 from app.scoring.reliability.dependability import WANTED
-from app.scoring.rows import ScoreRules
 from app.session.board import ProgressBoard
 from app.session.course import CourseItem
 from app.session.index import Indexed
@@ -257,7 +256,7 @@ def _exercise(
     points = {key: [one.total or 0.0 for one in some] for key, some in taken.items()}
     error, agreement = _repeated(list(points.values()))
     newest = max((some[-1] for some in taken.values()), key=lambda one: one.started)
-    mark = _pass_mark(newest)
+    mark = newest.pass_mark
     best = {key: board.cells[key, item.exercise].best for key in taken}
     near = [
         known[key]
@@ -295,9 +294,3 @@ def _repeated(points: Sequence[Sequence[float]]) -> tuple[float | None, Agreemen
     except ReliabilityError:
         return error, None
     return error, next(one for one in forms if one.form == "2,1")
-
-
-def _pass_mark(attempt: Indexed) -> float | None:
-    """Return the pass mark that an attempt was judged by."""
-    rules = (attempt.summary.score or {}).get("rules")
-    return None if rules is None else float(rules.get("pass_mark", ScoreRules().pass_mark))

@@ -13,14 +13,18 @@ if TYPE_CHECKING:
     from sqlalchemy import Table
 
 SEALED: Final = (
-    *("id", "size", "modified_ns", "signed_ns", "station", "started", "student", "exercise"),
+    *("id", "size", "modified_ns", "signed_ns", "inode", "signed_inode", "station"),
+    *("started", "student", "exercise"),
     *("version", "state", "duration", "total", "passed", "verdict", "counts", "under", "document"),
     "record",
 )
 """What the seal of a row is over, in this order."""
 
 
-STARTED, STUDENT, VERDICT = (SEALED.index(n) for n in ("started", "student", "verdict"))
+STARTED = SEALED.index("started")
+UNDER = SEALED.index("under")
+MARK = slice(1, STARTED)
+"""Where the mark of a record stands: what tells whether it has changed."""
 
 Row = tuple[Any, ...]
 """Values in the order of `SEALED`; a seal may follow."""
@@ -44,7 +48,7 @@ class Sealer:
 @cache
 def attempts_table() -> Table:
     """Return the table of attempts."""
-    from sqlalchemy import Boolean, Column, MetaData, Table
+    from sqlalchemy import BigInteger, Boolean, Column, MetaData, Table, Text
 
     known = MetaData()
     Table(
@@ -53,6 +57,14 @@ def attempts_table() -> Table:
         Column("id", words(), primary_key=True),
         Column("record", words(), nullable=False),
         Column("seal", words(), nullable=False),
+        Column("page", BigInteger, index=True),
+    )
+    Table(
+        "pages",
+        known,
+        Column("number", BigInteger, primary_key=True, autoincrement=False),
+        Column("seal", Text, nullable=False),
+        Column("body", Text, nullable=False),  # at last: seals are read without it
     )
     return Table(
         "attempts",
@@ -61,12 +73,14 @@ def attempts_table() -> Table:
         Column("size", number(whole=True), nullable=False),
         Column("modified_ns", number(whole=True), nullable=False),
         Column("signed_ns", number(whole=True), nullable=False),
+        Column("inode", number(whole=True), nullable=False),
+        Column("signed_inode", number(whole=True), nullable=False),
         Column("station", words(), nullable=False),
         Column("started", words(), nullable=False, index=True),
         Column("student", words(), nullable=False, index=True),
         Column("exercise", words(), nullable=False),
         Column("version", number(whole=True), nullable=False),
-        Column("state", words(), nullable=False),
+        Column("state", words(), nullable=False, index=True),
         Column("duration", number(whole=False), nullable=False),
         Column("total", number(whole=False)),
         Column("passed", Boolean),

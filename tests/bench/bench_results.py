@@ -23,13 +23,16 @@ from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.scoring.result import Score
 from app.scoring.score import score
 from app.session.board import board_of
-from app.session.index import Index, _rows
+from app.session.index import Index
+from app.session.index_records import listing, mark_of, rows_of
 from app.session.people import People
 from app.session.recording import open_recording
 from app.session.roster import RosterLine
 from app.session.sidecar import fresh_kept
 from app.session.station import StationKey
-from app.views.people.results_report import group_report, student_report, write_report
+from app.views.people.group_report import group_report
+from app.views.people.report_facts import ReportFacts
+from app.views.people.results_report import student_report, write_report
 from tests.bench.bench_record import record
 from tests.bench.in_turn import compare
 
@@ -46,7 +49,8 @@ def fill(folder: Path, keys: list[str]) -> None:
     first = folder / "first.mcap"
     shutil.copy2(source, first)
     index, key = Index(folder), StationKey.of()
-    (row,) = _rows(folder, "first", index._there(key)["first"], fresh_kept, key)
+    mark = mark_of(folder, "first", listing(folder), key.station)
+    (row,) = rows_of(folder, "first", mark, fresh_kept, key)
     began, random = datetime(2026, 1, 1, tzinfo=UTC), np.random.default_rng(1)
     rows = []
     for student, person in enumerate(keys):
@@ -96,11 +100,12 @@ def main() -> None:
             timed(f"results, {form.value}", lambda form=form: results_text(results, form))
         out, first = Path(name) / "r.pdf", board.students[0]
         timed(
-            "report of the group", lambda: write_report(out, lambda: group_report(results, {}, "A"))
+            "report of the group",
+            lambda: write_report(out, lambda: group_report(results, {}, ReportFacts())),
         )
         timed(
             "report of a student",
-            lambda: write_report(out, lambda: student_report(results, first, {})),
+            lambda: write_report(out, lambda: student_report(results, first, {}, ReportFacts())),
         )
         print(f"most memory {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
 

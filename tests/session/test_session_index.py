@@ -272,9 +272,10 @@ def fill(index: Index, pages: int) -> None:
         connection.exec_driver_sql(f"PRAGMA max_page_count = {pages}")
         for number in range(2000):
             connection.exec_driver_sql(
-                "INSERT INTO attempts SELECT ? || id, size, modified_ns, signed_ns, station, "
-                "started, student, exercise, version, state, duration, total, passed, verdict, "
-                "counts, under, document FROM attempts WHERE id NOT LIKE 'x%'",
+                "INSERT INTO attempts SELECT ? || id, size, modified_ns, signed_ns, inode, "
+                "signed_inode, station, started, student, exercise, version, state, duration, "
+                "total, passed, verdict, counts, under, document FROM attempts "
+                "WHERE id NOT LIKE 'x%'",
                 (f"x{number}",),
             )
 

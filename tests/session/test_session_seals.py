@@ -98,9 +98,9 @@ def test_a_row_of_another_attempt_or_with_a_seal_of_another_row_is_not_believed(
     one, other = sorted(path.stem for path in folder.glob("*.mcap"))
     tamper(folder, f"UPDATE seals SET seal = (SELECT seal FROM seals WHERE id = '{one}')")
     assert everything(folder) == before
-    tamper(folder, "INSERT INTO attempts SELECT 'ghost', size, modified_ns, signed_ns, station, "
-           "started, student, exercise, version, state, duration, 100.0, 1, verdict, 1, under, "
-           f"document FROM attempts WHERE id = '{other}'")  # fmt: skip
+    tamper(folder, "INSERT INTO attempts SELECT 'ghost', size, modified_ns, signed_ns, inode, "
+           "signed_inode, station, started, student, exercise, version, state, duration, 100.0, 1, "
+           f"verdict, 1, under, document FROM attempts WHERE id = '{other}'")  # fmt: skip
     assert everything(folder) == before
 
 
