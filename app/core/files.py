@@ -13,6 +13,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Final
 
 from app.core.temporary import name_of_process, process_has_gone
 
@@ -61,6 +62,12 @@ def read_at_most(path: Path, most: int = LARGEST_FILE) -> bytes:
 def beside(path: Path) -> Path:
     """Return a new temporary name in the folder of a file, hidden, that tells whose it is."""
     return path.with_name(f".{path.name}.{name_of_process()}")
+
+
+BINARY: Final = getattr(os, "O_BINARY", 0)
+"""Flag of `os.open` without which Windows writes another end of each line."""
+
+_SYNCED: Final = os.O_RDWR if os.name == "nt" else os.O_RDONLY
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:
@@ -115,8 +122,16 @@ def sweep(folder: Path) -> int:
 
 
 def sync(path: Path) -> None:
-    """Wait until a file, or the entries of a folder, stand on the disk."""
-    handle = os.open(path, os.O_RDONLY)
+    """Wait until a file, or the entries of a folder, stand on the disk.
+
+    Windows opens no folder, and writes its entries down by itself.
+    """
+    try:
+        handle = os.open(path, _SYNCED)
+    except PermissionError:
+        if path.is_dir():
+            return
+        raise
     try:
         os.fsync(handle)
     finally:

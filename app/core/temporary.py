@@ -74,7 +74,8 @@ def sweep_temporary() -> int:
 def _is_own(folder: Path) -> bool:
     """Return whether it is a folder, no link, and of this user: others' are theirs to sweep."""
     try:
-        return not folder.is_symlink() and folder.is_dir() and folder.stat().st_uid == os.getuid()
+        owner = os.getuid() if hasattr(os, "getuid") else folder.stat().st_uid
+        return not folder.is_symlink() and folder.is_dir() and folder.stat().st_uid == owner
     except OSError:
         return False
 

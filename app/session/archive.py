@@ -1,8 +1,9 @@
-"""Backup of everything as one file.
+"""Backup of everything, as one file or into a folder that keeps what is alike once.
 
-A backup is a ZIP archive: records with their signatures, deleted ones too, people, names, courses,
+One file is a ZIP archive: records with their signatures, deleted ones too, people, names, courses,
 the user's own exercises with their structures and profiles, each with its SHA-256 in
 `manifest.json`; the station's key only encrypted by the recovery key. CTs are left out and named.
+A folder (`backup_folder`) takes the same files, and CTs where they are asked for.
 `restoring` brings it back, `erasing` lets nothing be left of a person.
 
 Looking through everything a station keeps, or a backup of it, without changing anything.
@@ -18,13 +19,13 @@ import os
 import sqlite3
 import zipfile
 import zlib
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from app import __version__
 from app.core import paths
@@ -41,8 +42,8 @@ from app.session.backup_file import (
     ArchiveError,
     may_hold,
     read_manifest,
-    reading_backup,
 )
+from app.session.backup_folder import OBJECTS, opened_backup, pieces_for, write_list
 from app.session.course import courses_folder
 from app.session.database import BUSY_SECONDS
 from app.session.erasing import UNDO_DAYS as UNDO_DAYS
@@ -97,21 +98,120 @@ def backup(
     return count
 
 
-def left_out() -> list[str]:
-    """Say what a backup does not hold: CTs, by their digests, and files that lie elsewhere."""
-    scans: dict[str, list[str]] = defaultdict(list)
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """What was written into a folder of backups.
+
+    Attributes:
+        path: the backup's list.
+        records: how many attempts it holds.
+        new: bytes that were not there before.
+        left_out: what is not in it, a line each.
+    """
+
+    path: Path
+    records: int
+    new: int
+    left_out: tuple[str, ...]
+
+
+def backup_into(
+    out: Path,
+    folder: Path,
+    people: People | None = None,
+    progress: Progress | None = None,
+    passphrase: str = "",
+    with_cts: bool = False,
+) -> Saved:
+    """Add a backup to a folder of backups: what is there already is not written again.
+
+    Args:
+        out: folder of backups; made where there is none.
+        folder: of the records.
+        people: of this station.
+        progress: reports, and may cancel.
+        passphrase: encrypts; that of the backups that are there. Empty: nothing is encrypted.
+        with_cts: the CTs of the user's own exercises too.
+
+    Raises:
+        ArchiveError: if it cannot be written, or another passphrase holds there.
+        Cancelled: if that was asked for; there is no new list then.
+    """
+    people, progress = people or People(), progress or Progress()
+    digests: dict[str, str] = {}
+    names: dict[str, list[str]] = {}
+    new, scratch = 0, beside(out / "people")
+    try:
+        out.mkdir(parents=True, exist_ok=True, mode=0o700)
+        for place in (out, *sorted((out / OBJECTS).glob("*"))):
+            sweep(place)
+        pieces = pieces_for(out, passphrase)
+        with ExitStack() as stack:
+            with suppress(SessionError):  # a folder of people that can only be read
+                stack.enter_context(Journal(people.folder, [removal(scratch)]))
+            stack.callback(remove, scratch)
+            every = list(_members(folder, people, scratch))
+            every += ct_files() if with_cts else []
+            members = [(name, path) for name, path in every if may_hold(name)]
+            for number, (name, path) in enumerate(members):
+                progress.report(number / len(members), path.name)
+                with suppress(FileNotFoundError), path.open("rb") as stream:  # deleted meanwhile
+                    digests[name], names[name], count = pieces.put(stream)
+                    new += count
+            odd = [f"{name}, by its name" for name, _ in every if not may_hold(name)]
+            document = _manifest(people, digests, [*left_out(with_cts), *odd])
+            written = write_list(pieces, document | {"pieces": names})
+    except (OSError, sqlite3.Error) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise ArchiveError(sentence("cannot write {out}: {reason}", out=out, reason=why)) from error
+    note("backup written", folder=people.folder)
+    count = sum(name.endswith(SUFFIX) for name in digests)
+    return Saved(written, count, new, tuple(document["left_out"]))
+
+
+def ct_folders() -> dict[str, tuple[Path | None, list[str]]]:
+    """Return the CTs of the user's own exercises: folder and exercises, by digest or folder.
+
+    The folder is None where it is not there.
+    """
+    found: dict[str, tuple[Path | None, list[str]]] = {}
+    for path in sorted((paths.data() / "exercises").glob("*.yaml")):
+        try:
+            ct = read_yaml(path).get("ct") or {}
+            if ct.get("folder"):
+                place = (path.parent / str(ct["folder"])).resolve()
+                where = ct.get("digest") or sentence(
+                    "without a digest, in {folder}", folder=ct["folder"]
+                )
+                found.setdefault(str(where), (place if place.is_dir() else None, []))[1].append(
+                    path.stem
+                )
+        except (OSError, ValueError, AttributeError, LookupError, TypeError):
+            continue  # a file that is no exercise goes in as it is
+    return found
+
+
+def ct_files() -> Iterator[tuple[str, Path]]:
+    """Yield name in the backup and file of the CTs of the user's own exercises."""
+    for digest, (place, _) in ct_folders().items():
+        if place is not None:
+            named = hashlib.sha256(digest.encode()).hexdigest()[:16]
+            files = (path for path in sorted(place.rglob("*")) if path.is_file())
+            yield from ((f"cts/{named}/{k:06d}", path) for k, path in enumerate(files))
+
+
+def left_out(with_cts: bool = False) -> list[str]:
+    """Say what a backup does not hold: CTs, by their digests, and files that lie elsewhere.
+
+    Args:
+        with_cts: CTs that are there are in it.
+    """
     data = paths.data()
     lines: list[str] = []
     for path in sorted((data / "exercises").glob("*.yaml")):
         try:
-            document = read_yaml(path)
-            ct, parts = document.get("ct") or {}, document.get("structures") or ()
+            parts = read_yaml(path).get("structures") or ()
             files = [Path(str(part["file"])) for part in parts]
-            if ct.get("folder"):
-                where = ct.get("digest") or sentence(
-                    "without a digest, in {folder}", folder=ct["folder"]
-                )
-                scans[str(where)].append(path.stem)
         except (OSError, ValueError, AttributeError, LookupError, TypeError):
             continue  # a file that is no exercise goes in as it is
         for file in files:
@@ -122,7 +222,8 @@ def left_out() -> list[str]:
                 )
     return [
         sentence("the CT {name} of {some}", name=name, some=", ".join(some))
-        for name, some in sorted(scans.items())
+        for name, (place, some) in sorted(ct_folders().items())
+        if not (with_cts and place is not None)
     ] + lines
 
 
@@ -151,22 +252,27 @@ def _write(part: Path, scratch: Path, folder: Path, people: People, progress: Pr
             with suppress(FileNotFoundError):  # deleted or moved meanwhile
                 digests[name] = _pack(archive, name, path)
                 count += name.endswith(SUFFIX)
-        key = this_station()
-        manifest = {
-            "format": FORMAT,
-            "version": VERSION,
-            "software": __version__,
-            "created": datetime.now(UTC).isoformat(timespec="seconds"),
-            "station": key.station if key is not None else "",
-            "key": people.wrapped_key(),
-            "files": digests,
-            "left_out": [*left_out(), *odd],
-            "note": DISCLAIMER,
-        }
+        manifest = _manifest(people, digests, [*left_out(), *odd])
         archive.writestr(MANIFEST, json.dumps(manifest, indent=1))
     with part.open("rb+") as stream:
         os.fsync(stream.fileno())
     return count
+
+
+def _manifest(people: People, digests: dict[str, str], without: list[str]) -> dict[str, Any]:
+    """Return what a backup says of itself."""
+    key = this_station()
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "software": __version__,
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "station": key.station if key is not None else "",
+        "key": people.wrapped_key(),
+        "files": digests,
+        "left_out": without,
+        "note": DISCLAIMER,
+    }
 
 
 def _pack(archive: zipfile.ZipFile, name: str, path: Path) -> str:
@@ -275,20 +381,24 @@ def check_store(
     return StoreCheck(len(every), {str(name): count for name, count in verdicts.items()}, (*wrong,))
 
 
-def check_backup(source: Path, progress: Progress | None = None) -> StoreCheck:
+def check_backup(
+    source: Path, progress: Progress | None = None, passphrase: str = ""
+) -> StoreCheck:
     """Read every file of a backup, and hold it against the backup's own list.
 
     Args:
-        source: the backup.
+        source: the backup: a file, or a folder of backups, of which the newest is read.
         progress: reports, and may cancel.
+        passphrase: of an encrypted backup.
 
     Raises:
-        ArchiveError: if it is no backup, cut, of a newer version, or cannot be read.
+        ArchiveError: if it is no backup, cut, of a newer version, encrypted otherwise, or cannot
+            be read.
         Cancelled: if that was asked for.
     """
     progress, wrong, count = progress or Progress(), [], 0
     try:
-        with reading_backup(source), zipfile.ZipFile(source) as archive:
+        with opened_backup(source, passphrase) as archive:
             manifest = read_manifest(archive, source)
             for number, (name, digest) in enumerate(manifest.files.items()):
                 progress.report(number / len(manifest.files), name.rpartition("/")[2])
@@ -298,11 +408,12 @@ def check_backup(source: Path, progress: Progress | None = None) -> StoreCheck:
                         sha = hashlib.sha256()
                         while block := stream.read(1 << 20):
                             sha.update(block)
-                    right = sha.hexdigest() == digest
+                    if sha.hexdigest() != digest:
+                        wrong.append(sentence("{name} is not what was packed", name=name))
                 except (zipfile.BadZipFile, zlib.error, EOFError):
-                    right = False
-                if not right:
                     wrong.append(sentence("{name} is not what was packed", name=name))
+                except ValueError as error:
+                    wrong.append(sentence("{name}: {reason}", name=name, reason=error))
     except OSError as error:
         why = error.strerror or error
         raise ArchiveError(

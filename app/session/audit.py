@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.descriptors import hold_alone
-from app.core.files import step
+from app.core.files import BINARY, step
 from app.session.errors import SessionError
 from app.session.station import StationKey, key_file, signature_holds
 
@@ -49,6 +49,7 @@ WHAT: Final = (
     "attempt deleted",
     "attempt brought back",
     "results written",
+    "statements sent",
     "backup written",
     "backup restored",
     "files taken in",
@@ -186,7 +187,7 @@ def _entry(line: bytes, place: int, before: str, publics: set[str]) -> tuple[Aud
 def _held(path: Path) -> Iterator[int]:
     """Open the file to add to it, alone among all programs."""
     path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | BINARY, 0o600)
     try:
         end = time.monotonic() + 5.0
         while hold_alone(descriptor) is False and time.monotonic() < end:
@@ -200,7 +201,8 @@ def _last(descriptor: int) -> tuple[int, str]:
     """Return number and digest of the last line; one that a kill cut off goes first."""
     size = os.fstat(descriptor).st_size
     begin = max(0, size - _TAIL)
-    data = os.pread(descriptor, size - begin, begin)
+    os.lseek(descriptor, begin, os.SEEK_SET)
+    data = os.read(descriptor, size - begin)
     if data and not data.endswith(b"\n"):
         data = data[: data.rfind(b"\n") + 1]
         os.ftruncate(descriptor, begin + len(data))
@@ -213,7 +215,8 @@ def _last(descriptor: int) -> tuple[int, str]:
 
 def _counted(descriptor: int) -> int:
     """Count the lines of a long file."""
-    number, offset = 0, 0
-    while block := os.pread(descriptor, 1 << 20, offset):
-        number, offset = number + block.count(b"\n"), offset + len(block)
+    number = 0
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    while block := os.read(descriptor, 1 << 20):
+        number += block.count(b"\n")
     return number

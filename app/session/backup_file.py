@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import IO, Any, Final, Protocol
 
 from app.core.files import step
 from app.core.messages import sentence
@@ -27,13 +27,30 @@ _MEMBER: Final = re.compile(
     r"|people/(people\.sqlite|names\.json|courses/[a-z0-9-]+\.yaml)"
     r"|exercises/(profiles/)?[\w@][\w@.-]*"
     r"|structures/([\w-][\w.-]*/){0,3}[\w-][\w.-]*"
+    r"|cts/[0-9a-f]{16}/[0-9]{6}"
     r"|research/[a-z0-9-]+/(design\.yaml|exercise-[0-9]+\.yaml|allocation\.json|ledger\.sqlite))"
 )
-_LARGEST_MANIFEST: Final = 1 << 26
+LARGEST_MANIFEST: Final = 1 << 26
 
 
 class ArchiveError(SessionError):
     """A backup that cannot be written or read; says what to do."""
+
+
+class Packed(Protocol):
+    """What a backup is read from: a `zipfile.ZipFile`, or pieces in a folder."""
+
+    def open(self, name: str, /) -> IO[bytes]:
+        """Open a file of it to read."""
+
+    def read(self, name: str, /) -> bytes:
+        """Return a file of it whole."""
+
+    def getinfo(self, name: str, /) -> Any:
+        """Return how large a file is, as `file_size`."""
+
+    def namelist(self) -> list[str]:
+        """Return the names of its files."""
 
 
 @dataclass(frozen=True)
@@ -75,14 +92,14 @@ def may_hold(name: str) -> bool:
     return _MEMBER.fullmatch(name) is not None
 
 
-def read_manifest(archive: zipfile.ZipFile, source: Path) -> Manifest:
+def read_manifest(archive: Packed, source: Path) -> Manifest:
     """Read and check the list of what a backup holds.
 
     Raises:
         ArchiveError: if it is none, damaged, of a newer version, or would write elsewhere.
     """
     try:
-        if archive.getinfo(MANIFEST).file_size > _LARGEST_MANIFEST:
+        if archive.getinfo(MANIFEST).file_size > LARGEST_MANIFEST:
             raise ValueError(sentence("its list is too long"))
         document: dict[str, Any] = json.loads(archive.read(MANIFEST))
         kind, version = document["format"], document["version"]
@@ -119,7 +136,7 @@ def read_manifest(archive: zipfile.ZipFile, source: Path) -> Manifest:
 
 
 def unpack(
-    archive: zipfile.ZipFile,
+    archive: Packed,
     name: str,
     digest: str,
     target: Path,

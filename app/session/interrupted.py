@@ -24,7 +24,7 @@ from mcap.records import DataEnd, Footer, Metadata
 from mcap.writer import MCAP0_MAGIC
 
 from app.core.descriptors import hold, is_held
-from app.core.files import replace, sync
+from app.core.files import BINARY, replace, sync
 from app.core.messages import sentence
 from app.session.errors import SessionError
 from app.session.machine import FINAL
@@ -116,7 +116,7 @@ def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
                     )
                 )
             end = _end(path, now)
-            fd = os.open(beside, os.O_CREAT | os.O_TRUNC | os.O_WRONLY, 0o600)
+            fd = os.open(beside, os.O_CREAT | os.O_TRUNC | os.O_WRONLY | BINARY, 0o600)
             with closing(os.fdopen(fd, "wb")) as out:
                 with suppress(OSError):
                     hold(out.fileno())  # nobody takes it for one that a killed program left

@@ -23,7 +23,7 @@ from types import TracebackType
 from typing import Final
 
 from app.core.descriptors import hold_alone
-from app.core.files import remove, replace, step, sweep, sync, write_atomically
+from app.core.files import BINARY, remove, replace, step, sweep, sync, write_atomically
 from app.core.messages import sentence
 from app.core.temporary import name_of_process, process_has_gone, tells_processes
 from app.session.errors import SessionError
@@ -185,7 +185,7 @@ class Journal:
         place = self._folder / FOLDER
         place.mkdir(parents=True, exist_ok=True)
         self._path = place / f"plan.{name_of_process()}"
-        flags = os.O_CREAT | os.O_EXCL | os.O_RDWR | os.O_APPEND
+        flags = os.O_CREAT | os.O_EXCL | os.O_RDWR | os.O_APPEND | BINARY
         with suppress(FileNotFoundError):  # the empty folder was cleared away meanwhile
             step("open", self._path)
             fd = os.open(self._path, flags, 0o600)

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, Final
 from uuid import uuid4
 
 from app.core import paths
-from app.core.files import beside, step
+from app.core.files import BINARY, beside, step
 from app.core.messages import sentence
 from app.core.words import name_order
 from app.session.accounts import entry_of, owner_of
@@ -631,7 +631,7 @@ class People:
             if not names and not (self.folder / NAMES_FILE).exists():
                 return
             step("write", part)
-            fd = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+            fd = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | BINARY, 0o600)
             with os.fdopen(fd, "wb") as stream:
                 text = json.dumps(dict(names), indent=1, ensure_ascii=False) + "\n"
                 stream.write(text.encode())

@@ -8,7 +8,6 @@ overwritten. Nobody comes back who was erased, here or where the backup was made
 from __future__ import annotations
 
 import json
-import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -22,7 +21,8 @@ from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.accounts import owner_of
 from app.session.audit import note
-from app.session.backup_file import ArchiveError, Manifest, read_manifest, reading_backup, unpack
+from app.session.backup_file import ArchiveError, Manifest, Packed, read_manifest, unpack
+from app.session.backup_folder import opened_backup
 from app.session.erasing import finish_erasing
 from app.session.errors import BrokenRecordingError
 from app.session.header import TRASH
@@ -57,6 +57,7 @@ class Restored:
         erased: attempts left out because their person was erased.
         people: `restored`, `kept` (there are people here already) or `none` in the backup.
         key: `restored`, `same`, `not asked` (no recovery key was given) or `none` in the backup.
+        cts: folders of CTs that it brought.
         not_taken: what else the backup holds, or what was here, that is not here now: a line each.
     """
 
@@ -66,6 +67,7 @@ class Restored:
     erased: int = 0
     people: str = "none"
     key: str = "none"
+    cts: tuple[str, ...] = ()
     not_taken: tuple[str, ...] = ()
 
 
@@ -84,7 +86,7 @@ class _Restoring:
         done: what was found so far.
     """
 
-    archive: zipfile.ZipFile
+    archive: Packed
     source: Path
     manifest: Manifest
     folder: Path
@@ -111,27 +113,30 @@ def restore_backup(
     replace_people: bool = False,
     people: People | None = None,
     progress: Progress | None = None,
+    passphrase: str = "",
 ) -> Restored:
     """Bring back what a backup holds and is missing here, all of it or nothing.
 
     Args:
-        source: the backup.
+        source: the backup: a file, or a folder of backups, of which the newest is taken.
         folder: of the records.
         recovery: the printed key; brings back the station's key too, so that its records are
             verified here. Empty leaves the key here alone.
         replace_people: take people, names and courses of the backup although there are some here.
         people: of this station.
         progress: reports, and may cancel.
+        passphrase: of an encrypted backup.
 
     Raises:
-        ArchiveError: if it is no backup, damaged, of a newer version, or cannot be unpacked.
+        ArchiveError: if it is no backup, damaged, of a newer version, encrypted otherwise, or
+            cannot be unpacked.
         SignatureError: for a wrong recovery key.
         Cancelled: if that was asked for. After each of these nothing has changed.
     """
     people, progress = people or People(), progress or Progress()
     settled(folder)
     try:
-        with reading_backup(source), zipfile.ZipFile(source) as archive:
+        with opened_backup(source, passphrase) as archive:
             manifest = read_manifest(archive, source)
             asked = recovery and manifest.key
             key = StationKey.unwrapped(manifest.key, recovery) if asked else None
@@ -178,7 +183,7 @@ def _restore(
         progress.report(number / len(at.manifest.files), name.rpartition("/")[2])
         if name.startswith("records/") and name.endswith(SUFFIX):
             _record(at, name, gone, frozenset(erased))
-        elif name.startswith(("exercises/", "structures/", "research/")):
+        elif name.startswith(("exercises/", "structures/", "research/", "cts/")):
             _own_file(at, name)
     if there is not None:
         _people(at, there, replace_people)
@@ -225,6 +230,8 @@ def _own_file(at: _Restoring, name: str) -> None:
     target = paths.data() / name
     if not target.exists():
         at.steps.append(move(at.stage(name, paths.data()), target))
+        if name.startswith("cts/") and str(target.parent) not in at.done.cts:
+            at.done = replace(at.done, cts=(*at.done.cts, str(target.parent)))
     elif file_digest(target) != at.manifest.files[name]:
         at.say(f"{name} is another file here: the one here was kept")
 

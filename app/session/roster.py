@@ -153,9 +153,9 @@ def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
             tuple(sorted({group.strip() for group in groups if group.strip()})),
             {kind: cells[kind] for kind in Account if cells.get(kind)},
         )
-        wrong = judged_lines([line])[1] or _wrong_accounts(line, holders)
+        wrong = [*judged_lines([line])[1], *_wrong_accounts(line, holders)]
         if wrong:
-            errors.append(f"line {number}: {wrong[0]}")
+            errors.append(f"line {number}: {'; '.join(wrong)}")
         elif line.pseudonym.casefold() in found:
             errors.append(f"line {number}: {line.pseudonym!r} stands there twice: delete one row")
         else:

@@ -1,4 +1,4 @@
-"""Statements about attempts that wait to be sent: a folder that a later part empties.
+"""Statements about attempts that wait to be sent: a folder that `exchange.lrs` empties.
 
 Each call of `put` writes one file with what is new, whole or not at all; each call of `sent` one
 with the ids that have arrived. What waits is all that was put and not sent, so order does not

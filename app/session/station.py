@@ -22,8 +22,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from app.core import paths
+from app.core.files import BINARY, step, write_atomically
 from app.core.files import beside as new_name_beside
-from app.core.files import step, write_atomically
 from app.core.messages import sentence
 from app.session.errors import SessionError
 
@@ -282,7 +282,7 @@ def _draw(path: Path) -> None:
     beside = new_name_beside(path)
     try:
         step("write", beside)
-        handle = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        handle = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | BINARY, 0o600)
         with os.fdopen(handle, "w") as stream:
             stream.write(json.dumps(document) + "\n")
             stream.flush()

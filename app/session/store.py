@@ -204,13 +204,18 @@ def records(folder: Path) -> list[Path]:
     except FileNotFoundError:
         return []
     except OSError as error:
-        raise SessionError(
-            sentence(
-                "cannot read the folder {folder}: {error_strerror}",
-                folder=folder,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
+        raise unreadable_folder(folder, error) from error
+
+
+def unreadable_folder(folder: Path, error: OSError) -> SessionError:
+    """Return what is said of a folder that cannot be read."""
+    return SessionError(
+        sentence(
+            "cannot read the folder {folder}: {error_strerror}",
+            folder=folder,
+            error_strerror=error.strerror or error,
+        )
+    )
 
 
 def beside(path: Path) -> tuple[Path, ...]:

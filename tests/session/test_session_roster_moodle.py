@@ -112,3 +112,10 @@ def test_identifiers_come_back_with_a_backup(
     monkeypatch.setenv("ACUS_DATA", str(tmp_path / "other"))
     restore_backup(tmp_path / "all.acusbackup", tmp_path / "records", people=People())
     assert People().names() == before
+
+
+def test_a_row_with_two_faults_tells_both():
+    errors = read_roster(b"pseudonym,pin,email\nada,12,nowhere\n")[1]
+    assert len(errors) == 1
+    assert errors[0].startswith("line 2: ada: ")
+    assert "'nowhere' is no e-mail address" in errors[0]

@@ -7,7 +7,9 @@ checked.
 from __future__ import annotations
 
 import hashlib
-from typing import Any
+from collections.abc import Mapping
+from datetime import timedelta
+from typing import Any, Final
 
 from app.core.extras import not_installed
 from app.core.messages import sentence
@@ -19,19 +21,25 @@ class Objects:
 
     Args:
         url: of fsspec, such as `s3://bucket/acus`, or `file:///mnt/school/objects`.
-        options: of its file system, such as `endpoint_url`.
+        seconds: that an answer may take, of an S3-like store.
+        options: of its file system; of an S3-like store `endpoint`, `access_key_id`,
+            `secret_access_key`, `region`, which else come from the variables `AWS_…`.
 
     Raises:
         StoreError: if there is no such kind of place, or what it needs is not installed.
     """
 
-    def __init__(self, url: str, **options: Any) -> None:
+    def __init__(self, url: str, seconds: float = 10.0, **options: Any) -> None:
         try:
             import fsspec
         except ImportError as error:
             raise not_installed(StoreError, "fsspec", "school") from error
+        self._whole = url.startswith("s3://")  # what is put there is there whole, or not at all
         try:
-            self._files, self._root = fsspec.core.url_to_fs(url, **options)
+            if self._whole:
+                self._files, self._root = _s3(seconds, options), url.removeprefix("s3://")
+            else:
+                self._files, self._root = fsspec.core.url_to_fs(url, **options)
         except (ImportError, ValueError) as error:
             raise StoreError(
                 sentence(
@@ -50,6 +58,9 @@ class Objects:
         path = self._path(digest)
         try:
             if self._files.exists(path) and self._files.size(path) == len(data):
+                return
+            if self._whole:
+                self._files.pipe_file(path, data)
                 return
             self._files.makedirs(path.rpartition("/")[0], exist_ok=True)
             part = f"{path}.part"
@@ -92,6 +103,27 @@ class Objects:
         return f"{self._root}/{digest[:2]}/{digest}"
 
 
+def _s3(seconds: float, options: Mapping[str, Any]) -> Any:
+    """Return the file system of an S3-like store; nothing is asked there yet."""
+    try:
+        from obstore.fsspec import FsspecStore
+    except ImportError as error:
+        raise not_installed(StoreError, "obstore", "school") from error
+    store: Any = FsspecStore  # what it passes on to fsspec is not in its types
+    plain = str(options.get("endpoint", "")).startswith("http://")
+    return store(
+        "s3",
+        config={"region": "us-east-1", **options},
+        client_options={
+            "allow_http": plain,
+            "timeout": f"{seconds:g}s",
+            "connect_timeout": f"{seconds / 2:g}s",
+        },
+        retry_config={"max_retries": 1, "retry_timeout": timedelta(seconds=seconds)},
+        skip_instance_cache=True,
+    )
+
+
 def _lost(digest: str) -> str:
     return sentence(
         "the object {digest} of the school's store is missing or damaged: its administrator brings "
@@ -100,11 +132,24 @@ def _lost(digest: str) -> str:
     )
 
 
+_REFUSED: Final = ("InvalidAccessKeyId", "SignatureDoesNotMatch", "AccessDenied", "403", "401")
+_NO_BUCKET: Final = ("NoSuchBucket",)
+_SLOW: Final = ("timed out", "timeout", "TimedOut")
+
+
 def _unreachable(error: Exception) -> UnreachableStoreError:
+    text = f"{type(error).__name__}: {error}"
+    why: str = str(error).strip().partition("\n")[0][:200]
+    if any(each in text for each in _NO_BUCKET):
+        why = sentence("there is no such bucket: its administrator makes it")
+    elif any(each in text for each in _REFUSED):
+        why = sentence("it does not know this key: give that of its administrator")
+    elif any(each in text for each in _SLOW):
+        why = sentence("it takes too long to answer")
     return UnreachableStoreError(
         sentence(
             "the objects of the school's store cannot be used: this station goes on and tries "
             "again ({reason})",
-            reason=str(error)[:200],
+            reason=why,
         )
     )

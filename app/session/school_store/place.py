@@ -48,7 +48,7 @@ class StorePlace:
         Raises:
             StoreError: if the place of the objects is none.
         """
-        objects = Objects(self.objects, **self.options) if self.objects else None
+        objects = Objects(self.objects, self.seconds, **self.options) if self.objects else None
         return SchoolStore(self.url, objects, self.seconds)
 
 

@@ -8,6 +8,7 @@ from PySide6.QtCore import QStandardPaths
 from PySide6.QtWidgets import QCheckBox, QFileDialog
 
 from app.core.progress import Progress
+from app.session.backup_folder import is_encrypted, opened_backup
 from app.session.restoring import Restored, restore_backup
 from app.views.kit.text import tr, tr_n, translated
 from app.views.people.pages import EntryDialog
@@ -44,32 +45,46 @@ class BackupRestorer:
             "key back too, for another computer: leave it empty else.",
             name=path.name,
         )
+        locked = is_encrypted(path)
         instead = QCheckBox(tr("Students and courses of the backup in place of those here"))
 
-        def take(recovery: str) -> None:
-            self.restore(path, recovery.strip(), instead.isChecked())
+        def take(recovery: str, passphrase: str = "") -> None:
+            if locked:
+                with opened_backup(path, passphrase):  # said while it can be typed again
+                    pass
+            self.restore(path, recovery.strip(), instead.isChecked(), passphrase)
 
-        fields = ((tr("Recovery key"), False),)
+        fields = [(tr("Recovery key"), False), (tr("Passphrase of the backup"), True)]
+        fields = fields if locked else fields[:1]
         parent = self._doors.parent()
         dialog = EntryDialog(tr("Restore a backup"), fields, take, words, parent)
         instead.setParent(dialog)
         dialog.form.addRow(instead)
         self._doors.open(dialog)
 
-    def restore(self, path: Path, recovery: str = "", replace_people: bool = False) -> None:
+    def restore(
+        self,
+        path: Path,
+        recovery: str = "",
+        replace_people: bool = False,
+        passphrase: str = "",
+    ) -> None:
         """Bring a backup back beside the window, all of it or nothing; it can be cancelled.
 
         Args:
             path: of the backup.
             recovery: the printed key; empty leaves the station's key alone.
             replace_people: take students and courses of the backup although there are some here.
+            passphrase: of an encrypted backup.
         """
         if not self._doors.may():
             return
         folder, people = self._doors.folder, self._doors.people
 
         def work(progress: Progress) -> Restored:
-            return restore_backup(path, folder, recovery, replace_people, people, progress)
+            return restore_backup(
+                path, folder, recovery, replace_people, people, progress, passphrase
+            )
 
         self._doors.beside(work, self._show, tr("Restoring a backup"))
 
@@ -106,5 +121,9 @@ def restored_words(done: Restored) -> str:
     if done.different:
         names = ", ".join(done.different)
         lines.append(tr("Another file here, which stays: {names}", names=names))
+    lines += [
+        tr("A CT lies in {folder}: its exercise names another place.", folder=one)
+        for one in done.cts
+    ]
     lines += [tr("Not taken: {what}", what=translated(line)) for line in done.not_taken]
     return "\n".join(lines)
