@@ -40,11 +40,13 @@ HOMED: Final = 2
 TRIPPED: Final = 4
 FORCE_VALID: Final = 8
 GREETED: Final = 16
+LIMITED: Final = 32
 """Flags of a state."""
 
 FEATURE_GAUGE: Final = 1
 FEATURE_EMULATED: Final = 2
-"""Features of a board: it measures the force; it is a program, no hardware."""
+FEATURE_LIMITED: Final = 4
+"""Features of a board: it measures the force; it is a program, no hardware; it says LIMITED."""
 
 
 def hello(version: int = VERSION) -> bytes:

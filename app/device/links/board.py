@@ -38,9 +38,16 @@ _HOME_REFUSED = int(BoardError.HOME_REFUSED)
 
 @njit
 def _stop(p: FloatArray) -> None:
-    p[at.TORQUE] = p[at.TORQUE + 1] = p[at.ENABLED] = p[at.HOLDS] = 0.0
+    p[at.TORQUE] = p[at.TORQUE + 1] = p[at.ENABLED] = p[at.HOLDS] = p[at.LIMITED] = 0.0
     for k in range(cables.CHANNELS):
         p[at.PULL + k] = 0.0
+
+
+@njit
+def _fail(p: FloatArray, error: int) -> None:
+    """Stop and report an error; a smaller number does not hide a greater one."""
+    _stop(p)
+    p[at.ERROR] = max(p[at.ERROR], error)
 
 
 @njit
@@ -79,13 +86,21 @@ def _faulty(p: FloatArray, count: int) -> int:
 
 
 @njit
+def _trip(p: FloatArray, now: float) -> None:
+    """Stop the motors if the last command with enable is too old."""
+    if p[at.ENABLED] != 0.0 and now - p[at.COMMANDED] > p[at.WATCHDOG] - at.TRIPS_EARLY:
+        _stop(p)
+        p[at.TRIPPED] = 1.0
+
+
+@njit
 def _apply(p: FloatArray, now: float, left: float, right: float, enable: bool) -> None:
     """Obey a valid command: limit both torques together; the watchdog begins anew."""
     p[at.COMMANDS] += 1.0
-    p[at.COMMANDED], p[at.TRIPPED] = now, 0.0
+    _trip(p, now)
+    p[at.COMMANDED] = now
     if not np.isfinite(left + right):
-        p[at.ERROR] = _BAD_TORQUE
-        _stop(p)
+        _fail(p, _BAD_TORQUE)
         return
     if p[at.ERROR] == _BAD_TORQUE:
         p[at.ERROR] = 0.0
@@ -93,8 +108,9 @@ def _apply(p: FloatArray, now: float, left: float, right: float, enable: bool) -
         _stop(p)
         return
     largest = max(abs(left), abs(right))
+    p[at.LIMITED] = largest > np.float32(p[at.LIMIT])  # a command has singles
     scale = p[at.LIMIT] / largest if largest > p[at.LIMIT] else 1.0
-    p[at.ENABLED] = 1.0
+    p[at.ENABLED], p[at.TRIPPED] = 1.0, 0.0
     p[at.TORQUE], p[at.TORQUE + 1] = scale * left, scale * right
     p[at.LARGEST] = max(p[at.LARGEST], scale * largest)
 
@@ -103,13 +119,13 @@ def _apply(p: FloatArray, now: float, left: float, right: float, enable: bool) -
 def _pull(p: FloatArray, now: float, data: Any) -> None:
     """Obey a valid command of four channels; the watchdog begins anew."""
     p[at.COMMANDS] += 1.0
-    p[at.COMMANDED], p[at.TRIPPED] = now, 0.0
+    _trip(p, now)
+    p[at.COMMANDED] = now
     total = 0.0
     for k in range(cables.CHANNELS):
         total += wire.get_float(p, data, 4 + 4 * k)
     if not np.isfinite(total):
-        p[at.ERROR] = _BAD_TORQUE
-        _stop(p)
+        _fail(p, _BAD_TORQUE)
         return
     if p[at.ERROR] == _BAD_TORQUE:
         p[at.ERROR] = 0.0
@@ -119,8 +135,12 @@ def _pull(p: FloatArray, now: float, data: Any) -> None:
     holds = data[1] & cables.HOLD != 0
     low, high = (-p[at.FASTEST], p[at.FASTEST]) if holds else (0.0, p[at.LIMIT])
     p[at.ENABLED], p[at.HOLDS] = 1.0, 1.0 if holds else 0.0
+    p[at.LIMITED] = p[at.TRIPPED] = 0.0
     for k in range(cables.CHANNELS):
-        asked = min(max(wire.get_float(p, data, 4 + 4 * k), low), high)
+        wanted = wire.get_float(p, data, 4 + 4 * k)
+        asked = min(max(wanted, low), high)
+        if np.float32(asked) != np.float32(wanted):
+            p[at.LIMITED] = 1.0
         p[at.PULL + k] = asked
         if not holds:
             p[at.LARGEST] = max(p[at.LARGEST], asked)
@@ -153,7 +173,7 @@ def _say_info(p: FloatArray) -> None:
         message[k] = template[k]
     message[1] = int(p[at.VERSION])
     wire.put_int(message, 4, int(p[at.BOOT]), 4)
-    message[16] = acus.FEATURE_EMULATED | (1 if p[at.GAUGE] != 0.0 else 0)
+    message[16] = acus.FEATURE_EMULATED | acus.FEATURE_LIMITED | (1 if p[at.GAUGE] != 0.0 else 0)
     _say(p, message, acus.INFO_BYTES)
 
 
@@ -161,7 +181,7 @@ def _say_info(p: FloatArray) -> None:
 def _say_state(p: FloatArray, now: float, sequence: int) -> None:
     message = p[at.WORK : at.RECEIVER_AT].view(np.uint8)
     flags = int(p[at.ENABLED]) | int(p[at.HOMED]) << 1 | int(p[at.TRIPPED]) << 2
-    flags |= int(p[at.GAUGE]) << 3 | int(p[at.GREETED]) << 4
+    flags |= int(p[at.GAUGE]) << 3 | int(p[at.GREETED]) << 4 | int(p[at.LIMITED]) << 5
     channels = int(p[at.CHANNELS])
     message[0] = cables.STATE if channels > 0 else acus.STATE
     message[1], message[16] = flags, int(p[at.ERROR])
@@ -182,9 +202,10 @@ def _say_state(p: FloatArray, now: float, sequence: int) -> None:
 
 
 @njit
-def _home(p: FloatArray, boot: int) -> None:
+def _home(p: FloatArray, now: float, boot: int) -> None:
+    _trip(p, now)
     if boot != int(p[at.BOOT]) or p[at.ENABLED] != 0.0:
-        p[at.ERROR] = _HOME_REFUSED
+        _fail(p, _HOME_REFUSED)
         return
     p[at.ZERO], p[at.ZERO + 1], p[at.HOMED] = p[at.Q], p[at.Q + 1], 1.0
     if p[at.ERROR] == _HOME_REFUSED:
@@ -207,7 +228,7 @@ def _message(p: FloatArray, now: float, data: Any, length: int) -> None:
         _apply(p, now, left, right, data[1] & acus.ENABLE != 0)
         _say_state(p, now, wire.get_int(data, 2, 2))
     elif kind == acus.HOME and length == 5:
-        _home(p, wire.get_int(data, 1, 4))
+        _home(p, now, wire.get_int(data, 1, 4))
 
 
 @njit
@@ -296,10 +317,7 @@ def work(p: FloatArray, now: float) -> None:
         p[wire.IN_COUNT] = 0.0
     round_time = min(max(now - p[at.LAST], 0.0), at.TRIPS_EARLY)
     p[at.LAST] = now
-    late = now + round_time - p[at.COMMANDED] > p[at.WATCHDOG] - at.TRIPS_EARLY
-    if p[at.ENABLED] != 0.0 and late:
-        _stop(p)
-        p[at.TRIPPED] = 1.0
+    _trip(p, now + round_time)
 
 
 DOWN: Final = at.SIZE  # line to the board

@@ -58,7 +58,8 @@ TURNING: Final = REVERSED + 1  # 1: it does so already, about the angle that fol
 TURNING_AT: Final = TURNING + 1
 FLIPS: Final = TURNING_AT + 1  # probability that a bit of the left count of a state is wrong
 RANDOM: Final = FLIPS + 1
-SIZE: Final = RANDOM + 1
+LIMITED: Final = RANDOM + 1  # 1: the newest command asked for more than the largest
+SIZE: Final = LIMITED + 1
 
 TRIPS_EARLY: Final = 2e-3
 """The watchdog trips this long before its time is over [s], so that the torque is zero by then."""

@@ -20,10 +20,10 @@ _HEAD: Final = 5
 _TAIL: Final = 6
 REPEAT: Final = 7  # probability that a chunk comes twice
 OVERTAKE: Final = 8  # probability that a chunk comes after the next one
-_CHUNK: Final = 34  # time, length, 256 bytes
+_CHUNK: Final = 514  # time, length, 4096 bytes
 _CHUNKS: Final = 64
 _RING: Final = 9
-CHUNK_BYTES: Final = 256
+CHUNK_BYTES: Final = 4096
 SIZE: Final = _RING + _CHUNKS * _CHUNK
 
 

@@ -53,6 +53,16 @@ def _described(port: Any) -> PortInfo:
     return PortInfo(port.device, known or "", hardware)
 
 
+def check_there(path: str) -> None:
+    """Refuse a path at which nothing is, before code is compiled for what would speak there.
+
+    Raises:
+        LinkError: naming the ports that there are. Names without a path (COM3) are left to `open`.
+    """
+    if os.path.isabs(path) and not os.path.exists(path):
+        raise LinkError(reason(path, 0, FileNotFoundError(errno.ENOENT, "")))
+
+
 class Port:
     """An open serial port that nobody else has; its descriptor does not block.
 

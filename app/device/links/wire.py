@@ -26,12 +26,12 @@ _TIMESPEC: Final = 10  # two numbers
 _SENT: Final = 12
 SENT_RING: Final = 64
 _IN: Final = _SENT + SENT_RING
-_OUT: Final = _IN + 64
-END: Final = _OUT + 32
+_OUT: Final = _IN + 256
+END: Final = _OUT + 512
 """Fields of one end; a protocol's own fields begin at `END`."""
 
-IN_BYTES: Final = 512
-OUT_BYTES: Final = 256
+IN_BYTES: Final = 2048
+OUT_BYTES: Final = 4096
 
 
 @njit
