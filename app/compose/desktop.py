@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from app.compose.camera_check import Aim
     from app.compose.live_cameras import LiveReader
     from app.compose.trainer import Rig
+    from app.compose.watchers import RunWatcher
     from app.core.arrays import FloatArray
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
@@ -80,6 +81,7 @@ class Desktop:
         sessions: folder of the records.
         besides: exercises of other files; each stands for one of its name in the library.
         led: whether a program leads the hand in every run, which time waits for.
+        watchers: are told of every run (`compose.watchers`).
     """
 
     def __init__(
@@ -89,7 +91,9 @@ class Desktop:
         sessions: Path | None = None,
         besides: tuple[Exercise, ...] = (),
         led: bool = False,
+        watchers: tuple[RunWatcher, ...] = (),
     ) -> None:
+        self.watchers = watchers
         self._skill, self._seed, self._besides = skill, seed, besides
         self._led = led
         self._sessions = sessions or paths.sessions()
@@ -196,7 +200,7 @@ class Desktop:
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
             from app.compose.exercise_ct import load_field, load_risks
             from app.compose.exercise_field import resolve_tissue
-            from app.compose.needle_sources import needle_source
+            from app.compose.needle_sources import named, needle_source
             from app.compose.trainer import TrainerSetup, build_rig
             from app.core.temporary import temporary_folder
             from app.exercises.tissue import with_tissue
@@ -229,7 +233,7 @@ class Desktop:
             held_arming=setup.robot.held_arming and skill is None,
             port=setup.robot.port or None,
             cameras=setup.cameras,
-            source=needle_source("pen", setup.robot.pen) if setup.robot.pen else None,
+            source=needle_source(*named(setup.robot.pen)) if setup.robot.pen else None,
             risks=risks,
             tissues=tissues,
             # Each start is another one; who asks for a seed has the same again.
@@ -245,7 +249,10 @@ class Desktop:
         except BaseException:
             rig.close()
             raise
-        return DesktopRun(rig, kept if shows else None)
+        run = DesktopRun(rig, kept if shows else None, self.watchers)
+        for watcher in self.watchers:
+            watcher.began(run, setup.volume)
+        return run
 
 
 def _compiling(waited: float) -> str:
@@ -302,10 +309,18 @@ class DesktopRun:
     Args:
         rig: what was built.
         passing: folder of records that go with the run: of a demonstration; None keeps them.
+        watchers: are told when it ends.
     """
 
-    def __init__(self, rig: Rig, passing: Path | None = None) -> None:
-        self._rig, self._passing = rig, passing
+    def __init__(
+        self, rig: Rig, passing: Path | None = None, watchers: tuple[RunWatcher, ...] = ()
+    ) -> None:
+        self._rig, self._passing, self._watchers = rig, passing, watchers
+
+    @property
+    def rig(self) -> Rig:
+        """Return the trainer and its parts: others after each change of the plan."""
+        return self._rig
 
     @property
     def run(self) -> ExerciseRun:
@@ -368,6 +383,8 @@ class DesktopRun:
 
     def close(self) -> None:
         """End everything at zero force; idempotent."""
+        for watcher in self._watchers:
+            watcher.ended(self)
         self._rig.close()
         if self._passing is not None:
             shutil.rmtree(self._passing, ignore_errors=True)

@@ -18,19 +18,21 @@ an attempt is done over by `attempt`. `tests/test_compose_trial.py` holds the on
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
+from app.compose.stepped_loop import SteppedLoop, bends_of
 from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
 from app.compose.trial_course import TrialCourse
 from app.compose.trial_parts import (
     BEGIN,
-    SETTLED,
     STEP_TICKS,
     PlayedHand,
     PlayedTrial,
@@ -45,12 +47,11 @@ from app.core.clock import VirtualClock
 from app.core.parameters import Stage
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
-from app.device.control import Loop, Table
+from app.device.control import Table
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
 from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
-from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.observation import GRACE
@@ -62,7 +63,6 @@ from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
 from app.session.transitions import LOST
 from app.simulation.hands import Script, named
-from app.simulation.plant import initial_plant
 from app.simulation.skills import find_skill
 from app.simulation.trainee import ScriptPhase, script_stage
 from app.tracking.optics.rig import RigProfile, load_rig
@@ -74,7 +74,6 @@ from app.tracking.simulated.sampled import (
     SampledDepth,
     SampledTracker,
     Spoiled,
-    cover,
 )
 from app.tracking.simulated.scene import MarkerScene
 
@@ -91,9 +90,6 @@ LONGEST: Final = 900.0
 STEP: Final = 1.0 * MILLIMETRE
 BEYOND: Final = 20.0 * MILLIMETRE
 """Depths by the cameras are tabulated in such steps, to so far behind the target [m]."""
-
-HEARTBEATS: Final = 10
-"""Looks from one sign of life of the window to the next: 0.2 s, of 1 s that the loop allows."""
 
 
 def attempt(
@@ -297,46 +293,41 @@ class Trials:
         self, trainee: Stage, seed: int, hand: PlayedHand | None = None
     ) -> tuple[FloatArray, float]:
         """Run the loop; returns its state at each look of an attempt, and when that began [s]."""
-        profile, clock = self._profile, VirtualClock(BEGIN)
+        stepped = self.stepped(trainee, seed, self._dial(hand))
+        with closing(stepped):
+            while stepped.now < BEGIN + LONGEST:
+                until = None if hand is None else hand.covers(stepped.now - stepped.begin)
+                if until is not None:
+                    stepped.cover(stepped.begin + until)
+                if stepped.step()[sv.TRAINEE_PHASE] == ScriptPhase.DONE:
+                    break
+        return np.array(stepped.rows), stepped.begin
+
+    def stepped(
+        self, hand: Stage | None, seed: int, dial: float, axis: ArrayLike = UPRIGHT
+    ) -> SteppedLoop:
+        """Begin an attempt that is stepped from outside; to be closed.
+
+        Args:
+            hand: what moves it; None for who steps it.
+            seed: of the cameras' noise.
+            dial: of the robot's help.
+            axis: direction that the needle has at the beginning.
+        """
         own: dict[int, FloatArray] = {}
 
         def fresh(stage: Stage) -> Stage:
             values = own.setdefault(id(stage.parameters), stage.parameters.copy())
             return stage._replace(parameters=values)
 
-        before = trainee, self._cameras.stage(seed, self._spoiled)
+        cameras = self._cameras.stage(seed, self._spoiled)
+        before = [cameras] if hand is None else [hand, cameras]
         table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
-        initial = initial_plant(profile, UPRIGHT, START_DEPTH)
-        loop = Loop(table, profile.rate_hz, clock, initial=initial)
-        loop.inbox.write(
-            hand_depth=START_DEPTH,
-            hand_holds=1.0,
-            homed=1.0,
-            force_cap=profile.limits.hand_force,
-        )
-        inputs = LoopInputs(loop.inbox)
-        inputs.prepare(self._aimed, self._dial(hand))
-        loop.open()
-        try:
-            inputs.heartbeat(BEGIN)
-            loop.step(round(SETTLED * profile.rate_hz))
-            begin, tick = clock.now(), round(SETTLED * profile.rate_hz)
-            inputs.arm(True)
-            rows: list[FloatArray] = []
-            while clock.now() < BEGIN + LONGEST:
-                until = None if hand is None else hand.covers(clock.now() - begin)
-                if until is not None:
-                    cover(before[1], begin + until)
-                if len(rows) % HEARTBEATS == 0:
-                    inputs.heartbeat(clock.now())
-                loop.step(STEP_TICKS)
-                tick += STEP_TICKS
-                rows.append(loop.rows(tick - 1)[0])
-                if rows[-1][sv.TRAINEE_PHASE] == ScriptPhase.DONE:
-                    break
-        finally:
-            loop.close()
-        return np.array(rows), begin
+        return SteppedLoop(table, cameras, self._profile, self._aimed, dial, axis)
+
+    def judged(self, stepped: SteppedLoop) -> Trial | None:
+        """Score what was stepped so far; None where only a trainer can judge it."""
+        return self._judged(np.array(stepped.rows), stepped.begin, stepped.dial)
 
     def _samples(self, rows: FloatArray) -> Samples:
         """Return what a trainer keeps of these states (`session.fusion`); all as if `aligning`."""
@@ -345,15 +336,7 @@ class Trials:
         measured = (rows[:, sv.TRACKED_TIME] > 0.0) & (age <= TRACKER_HOLD)
         depth = np.where(measured, rows[:, sv.TRACKED_DEPTH], rows[:, sv.DEPTH])
         axis = axis / np.linalg.norm(axis, axis=1, keepdims=True)
-        bend = np.column_stack(
-            [
-                rows[:, sv.TIP_OFFSET],
-                rows[:, sv.TIP_SLOPE],
-                rows[:, sv.ROOT_CURVATURE],
-                rows[:, sv.BENT_LENGTH],
-            ]
-        )
-        bend[~(bend[:, 9] > 0.0)] = np.nan
+        bend = bends_of(rows)
         tip = self._fulcrum + depth[:, None] * axis + tips_beside(bend, depth)
         along = np.sqrt(np.maximum(rows[:, sv.TRACKED_VARIANCE], 0.0))
         across = np.interp(depth, *self._spread)

@@ -25,3 +25,11 @@ class TransformError(ExchangeError, ValueError):
 
 class MarkSheetError(ExchangeError, ValueError):
     """A sheet of judges or examiners that cannot be used; names file, row, column and value."""
+
+
+class LinkAddressError(ExchangeError, ValueError):
+    """An address, port, token or list of a live link that cannot be used."""
+
+
+class LinkMessageError(ExchangeError, ValueError):
+    """A message of a peer that is not as its protocol says; names the field and the value."""

@@ -5,7 +5,8 @@ Links and joints are named as in the laboratory's public description.
 URDF holds trees only, so the loop is cut as there: the left arm (`panto_a1`, `panto_a2`) carries
 the tool (`panto_a3`, `panto_tool0`), the right arm (`panto_a5`, `panto_a4`) ends in a frame of its
 own (`panto_right_end`, ours) that must be brought to the tool. The needle stands on the tool, tip
-at P3 (`tool_theta_joint` turns it about z, `tool_phi_joint` tilts it from the vertical).
+at P3 (`tool_theta_joint` turns it about z, `tool_phi_joint` tilts it from the vertical), and its
+end in the hand slides along it (`needle_interaction_joint`: L_in + L_out).
 
 The frame of `panto_base` is the laboratory's: its origin is the *left motor axis*, so x is greater
 than in Acus' world, which starts midway between the motors, by half the base. `Origin` says where
@@ -269,6 +270,10 @@ _TURN = 3.141592653589793
 _SPEED = 10.0
 """Speed limit of the joints [rad/s]: URDF demands one, the profile has none."""
 
+_SLIDE = 0.5
+"""How far the hand's end of the needle may be from the tool [m]: the laboratory's limits, which
+stand the wrong way round there."""
+
 _NOTHING = 1e-9
 """Mass [kg] and inertia [kg·m²] of what has none in our mechanics; simulators refuse zero."""
 
@@ -361,6 +366,12 @@ def _needle(robot: ET.Element, profile: PantographProfile) -> None:
     _hinge(
         robot, "tool_phi_joint", "tool_theta_link", "tool_phi_link", nowhere, (-tilt, tilt), "0 1 0"
     )
+    slides = "needle_interaction_joint"
+    _link(robot, "needle_interaction_link", (_NOTHING, nowhere, (_NOTHING, _NOTHING)))
+    joint = _joint(robot, slides, "prismatic", "tool_phi_link", "needle_interaction_link", nowhere)
+    ET.SubElement(joint, "axis", xyz="0 0 1")
+    low, high = map(_text, (-_SLIDE, _SLIDE))
+    ET.SubElement(joint, "limit", effort="0", lower=low, upper=high, velocity=_text(_SPEED))
 
 
 _Body = tuple[float, tuple[float, float, float], tuple[float, float]]

@@ -4,6 +4,11 @@ A statement says who (an account by pseudonym), did what (passed, failed, or com
 is no verdict), at which exercise, with which score, for how long and when. Its id is made of the
 attempt's, so a statement that is made twice is the same, and a store that has it takes no second
 one. Ids begin with an address that the hospital or university owns; nothing need answer there.
+
+Results keep the rules of cmi5 (section 9.5): a score and `success` with passed and failed alone,
+`completion` with completed alone, whole points, a duration; the pass mark as `masteryscore` where
+the verdict follows from it. No LMS starts Acus, so a statement claims no registration, no session
+and not the category of cmi5. What was measured is an extension whose name ends in its unit.
 """
 
 from __future__ import annotations
@@ -37,6 +42,9 @@ VERBS: Final = {
 
 VOIDED: Final = "http://adlnet.gov/expapi/verbs/voided"
 SIMULATION: Final = "http://adlnet.gov/expapi/activities/simulation"
+MASTERY: Final = "https://w3id.org/xapi/cmi5/context/extensions/masteryscore"
+
+_UNITS: Final = str.maketrans({"%": "percent", "°": "deg", "²": "2", "³": "3"})
 
 _HOME: Final = re.compile(r"https?://[A-Za-z0-9.-]+(:\d+)?(/[A-Za-z0-9._~/-]*)?")
 _REPORT: Final = 100
@@ -124,14 +132,22 @@ def statement(
     """Return the statement of an attempt, JSON-ready; arguments as of `statements`."""
     title = titles.get(attempt.exercise, "") or attempt.exercise
     exercise = f"{home}/exercises/{quote(attempt.exercise, safe='')}/versions/{attempt.version}"
-    duration = f"PT{max(0.0, attempt.duration):.2f}S"
-    result: dict[str, Any] = {"completion": True, "duration": duration}
     passed = attempt.passed if attempt.total is not None else None
-    if attempt.total is not None:
-        raw = round(min(100.0, max(0.0, attempt.total)), 2)
-        score = {"scaled": round(raw / 100.0, 4), "raw": raw, "min": 0, "max": 100}
-        result |= {"score": score} | ({} if passed is None else {"success": passed})
+    result: dict[str, Any] = {"duration": f"PT{max(0.0, attempt.duration):.2f}S"}
     context: dict[str, Any] = {"platform": "Acus"}  # its version would make it another statement
+    told = json.loads(attempt.document).get("score") or {}
+    if attempt.total is None or passed is None:
+        result["completion"] = True
+    else:
+        points = min(100.0, max(0.0, attempt.total))
+        scaled = round(points / 100.0, 4)
+        score = {"scaled": scaled, "raw": round(points), "min": 0, "max": 100}
+        result |= {"score": score, "success": passed}
+        mark = told.get("rules", {}).get("pass_mark")
+        if mark is not None and (scaled >= round(mark / 100.0, 4)) is passed:
+            context["extensions"] = {MASTERY: round(mark / 100.0, 4)}
+    if measured := _measured(told.get("rows", ()), home):
+        result["extensions"] = measured
     if course:
         parent = {"objectType": "Activity", "id": f"{home}/courses/{quote(course, safe='')}"}
         context["contextActivities"] = {"parent": [parent]}
@@ -173,6 +189,17 @@ def statements_text(queued: Sequence[QueuedStatement], array: bool) -> str:
 def _lines(documents: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     for document in documents:
         yield json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _measured(rows: Sequence[Mapping[str, Any]], home: str) -> dict[str, float]:
+    """Return the values of a score's rows by IRIs that end in their units."""
+    found = {}
+    for row in rows:
+        if row["value"] is not None:
+            words = f"{row['name']} {row['unit']}".translate(_UNITS).lower()
+            name = re.sub(r"[^a-z0-9]+", "-", words).strip("-").replace("-scans-scans", "-scans")
+            found[f"{home}/extensions/{name}"] = float(f"{row['value']:.4g}")
+    return found
 
 
 def _id(home: str, attempt: Indexed) -> str:

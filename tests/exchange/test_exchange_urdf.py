@@ -106,6 +106,56 @@ def test_the_exported_tree_closes_at_the_tool_in_mujoco(origin):
             assert data.body(body).xpos == pytest.approx(expected, abs=1e-15)
 
 
+def test_a_thousand_poses_are_those_of_pinocchio_s_tree():
+    """Pinocchio reads the URDF; its needle is where ours is, to 1e-9 m, hub and direction too."""
+    pinocchio = pytest.importorskip("pinocchio", reason="the extra `arm` is not installed")
+    model = pinocchio.buildModelFromXML(write_urdf(PROFILE, Origin.MIDPOINT))
+    data, geometry, rng = model.createData(), PROFILE.pantograph, np.random.default_rng(7)
+    place = {name: model.joints[model.getJointId(name)].idx_q for name in model.names[1:]}
+    worst = 0.0
+    for _ in range(1000):
+        lean, turn = PROFILE.tilt_limit * rng.uniform(0.01, 0.99), rng.uniform(-np.pi, np.pi)
+        axis = np.array([np.sin(lean) * np.cos(turn), np.sin(lean) * np.sin(turn), -np.cos(lean)])
+        depth = rng.uniform(0.0, 0.1)
+        hub, tool, q = _needle_by_vectors(geometry, axis, depth)
+        passive = passive_angles(geometry, q)
+        up = -axis
+        angles = {
+            "panto_a1": q[0],
+            "panto_a5": q[1],
+            "panto_a2": passive.left_relative,
+            "panto_a4": passive.right_relative,
+            "panto_a3": -passive.left_absolute,
+            "tool_theta_joint": np.arctan2(up[1], up[0]),
+            "tool_phi_joint": np.arctan2(np.hypot(up[0], up[1]), up[2]),
+            "needle_interaction_joint": np.linalg.norm(hub - tool),
+        }
+        values = np.zeros(model.nq)
+        for name, angle in angles.items():
+            values[place[name]] = angle
+        pinocchio.framesForwardKinematics(model, data, values)
+        frames = {name: data.oMf[model.getFrameId(name)] for name in FRAMES}
+        worst = max(
+            worst,
+            np.abs(frames["panto_tool0"].translation - tool).max(),
+            np.abs(frames["panto_right_end"].translation - tool).max(),
+            np.abs(frames["needle_interaction_link"].translation - hub).max(),
+            np.abs(frames["needle_interaction_link"].rotation[:, 2] - up).max(),
+        )
+    assert worst < 1e-9
+
+
+FRAMES = ("panto_tool0", "panto_right_end", "needle_interaction_link")
+
+
+def _needle_by_vectors(geometry, axis, depth):
+    """Hub and tool of a needle through the fulcrum [m], and joint angles, without our poses."""
+    fulcrum, length = np.array(geometry.fulcrum), PROFILE.needle_length
+    hub = fulcrum - (length - depth) * axis
+    tool = fulcrum - fulcrum[2] / axis[2] * axis
+    return hub, tool, inverse(geometry, tool[:2])
+
+
 def _for_mujoco(text: str) -> str:
     """Keep frames that MuJoCo would merge into their parents."""
     extension = '<mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>'

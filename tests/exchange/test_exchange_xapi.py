@@ -11,7 +11,7 @@ import pytest
 sys.path.append(str(Path(__file__).parents[1] / "session"))
 sys.path.append(str(Path(__file__).parent))
 from test_session_course import ADA, BOB, NOW, attempt
-from xapi_rules import broken_rules
+from xapi_rules import broken_cmi5_rules, broken_rules
 
 from app.exchange.errors import ExportError
 from app.exchange.results import Results
@@ -63,7 +63,7 @@ def test_who_what_which_score_how_long_and_when() -> None:
     assert first["actor"]["account"] == {"homePage": HOME, "name": "Ada"}
     assert "Lovelace" not in json.dumps(first)
     assert "p-a" not in json.dumps(first)
-    assert first["result"]["score"] == {"scaled": 0.5025, "raw": 50.25, "min": 0, "max": 100}
+    assert first["result"]["score"] == {"scaled": 0.5025, "raw": 50, "min": 0, "max": 100}
     assert [one["verb"]["display"]["en"] for one in (first, second, third, fourth)] == [
         "failed", "passed", "completed", "failed",
     ]  # fmt: skip
@@ -72,6 +72,52 @@ def test_who_what_which_score_how_long_and_when() -> None:
     assert "success" not in third["result"]
     assert fourth["result"]["duration"] == "PT3725.68S"
     assert first["object"]["id"] == f"{HOME}/exercises/lung/versions/1"
+
+
+def scored(one: Any, mark: float, passed: bool | None, *rows: Any) -> Any:
+    """An attempt as the index has it, with its score's pass mark and rows."""
+    score = {"rules": {"pass_mark": mark}, "rows": list(rows)}
+    return replace(one, passed=passed, document=json.dumps({"score": score}))
+
+
+def test_results_keep_the_rules_of_cmi5() -> None:
+    some = (
+        *SOME,
+        scored(SOME[0], 50.0, True),
+        scored(SOME[0], 60.0, False),
+        scored(SOME[1], 59.99999, False),  # enough points, and a required metric failed
+        replace(SOME[0], passed=None),
+        scored(replace(SOME[0], total=59.999), 60.0, False),
+        replace(SOME[0], total=-3.0, passed=False),
+    )
+    told = [json.loads(json.dumps(one.statement)) for one in statements(results(*some), HOME)]
+    assert [broken_cmi5_rules(one) for one in told] == [[]] * len(some)
+    marks = [one["context"].get("extensions") for one in told]
+    name = "https://w3id.org/xapi/cmi5/context/extensions/masteryscore"
+    assert marks[4:7] == [{name: 0.5}, {name: 0.6}, None]
+    assert told[7]["result"] == {"duration": "PT30.00S", "completion": True}
+    wrong = told[0] | {"result": told[0]["result"] | {"completion": True}}
+    assert broken_cmi5_rules(wrong) == ["9.5.3: completion"]
+
+
+def test_what_was_measured_stands_by_names_that_end_in_its_unit() -> None:
+    rows = (
+        {"name": "lateral_error", "unit": "mm", "value": 2.123456},
+        {"name": "angle_error", "unit": "°", "value": 0.0},
+        {"name": "saturation", "unit": "%", "value": 12.5},
+        {"name": "control_scans", "unit": "scans", "value": 3.0},
+        {"name": "peak_force", "unit": "N", "value": None},
+        {"name": "path_ratio", "unit": "", "value": 1.5},
+    )
+    told = statements(results(scored(SOME[0], 60.0, False, *rows)), HOME)[0].statement
+    assert broken_rules(json.loads(json.dumps(told))) == []
+    assert told["result"]["extensions"] == {
+        f"{HOME}/extensions/lateral-error-mm": 2.123,
+        f"{HOME}/extensions/angle-error-deg": 0.0,
+        f"{HOME}/extensions/saturation-percent": 12.5,
+        f"{HOME}/extensions/control-scans": 3.0,
+        f"{HOME}/extensions/path-ratio": 1.5,
+    }
 
 
 def test_the_same_attempt_is_the_same_statement_and_another_is_another() -> None:

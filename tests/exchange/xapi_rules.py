@@ -29,9 +29,52 @@ LANGUAGE = re.compile(r"[a-z]{2,3}(-[A-Z][a-z]{3})?(-([A-Z]{2}|\d{3}))?")
 TIMESTAMP = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3,}(Z|[+-]\d\d:\d\d)")
 
 
+CMI5 = "http://adlnet.gov/expapi/verbs/"
+MASTERY = "https://w3id.org/xapi/cmi5/context/extensions/masteryscore"
+
+
 def broken_rules(statement):
     """One line for each rule that a statement breaks."""
     return list(_statement(statement))
+
+
+def broken_cmi5_rules(statement):
+    """One line for each rule of cmi5 (cmi5_spec.md of AICC, quartz) that a result breaks.
+
+    9.5.1: a score with passed and failed alone, scaled in 0 ... 1, raw, min and max integers, the
+    verb consistent with masteryScore; 9.5.2: success true, false with these, absent else; 9.5.3:
+    completion true with completed, absent else; 9.5.4.1: a duration; 9.6.3.2: masteryScore in
+    0 ... 1 with four decimals at most; 9.7: a timestamp in UTC.
+    """
+    return list(_cmi5(statement))
+
+
+def _cmi5(s):
+    verb, result = s["verb"]["id"].removeprefix(CMI5), s.get("result", {})
+    judged = {"passed": True, "failed": False}
+    if verb not in (*judged, "completed"):
+        yield f"9.3: {verb}"
+    if result.get("success") is not judged.get(verb):
+        yield "9.5.2: success"
+    if result.get("completion") is not (True if verb == "completed" else None):
+        yield "9.5.3: completion"
+    if "duration" not in result:
+        yield "9.5.4.1: duration"
+    score = result.get("score")
+    mark = s["context"].get("extensions", {}).get(MASTERY)
+    if mark is not None and not (0 <= mark <= 1 and round(mark, 4) == mark):
+        yield f"9.6.3.2: {mark}"
+    if score is not None:
+        if verb not in judged:
+            yield "9.5.1: a score"
+        if not 0 <= score["scaled"] <= 1 or any(
+            type(score[name]) is not int for name in ("raw", "min", "max")
+        ):
+            yield f"9.5.1: {score}"
+        if mark is not None and (score["scaled"] >= mark) is not judged.get(verb):
+            yield "9.5.1: masteryScore"
+    if not s.get("timestamp", "").endswith("Z"):
+        yield "9.7: timestamp"
 
 
 def _statement(s):

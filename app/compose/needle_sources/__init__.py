@@ -7,6 +7,7 @@ is used. It declares its `title`, and its `noun` for sentences, and defines
 - `source(pictures)`, which returns what builds a `NeedleSource` of an exercise's device;
 - `replay_table(exercise, placed, profile, skill, seed, simulated)`, the table that a recorded
   attempt is computed again with;
+- `check(pictures)`, if where it looks can be judged at once;
 - `preview(settings)`, if it has a page in the window: what the page looks at, opened, without a
   loop.
 """
@@ -19,6 +20,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from app.core.messages import sentence
 from app.core.plugins import TEXT, Declaration, PluginKind
+from app.tracking.cameras.source import parse_source
 from app.tracking.errors import TrackingError
 from app.tracking.needle_tracker import NeedleTracker
 
@@ -113,6 +115,28 @@ def needle_source(name: str, pictures: str) -> Callable[[DeviceProfile], NeedleS
     with KIND.blamed(declared.path, "source() does not work"):
         made: Callable[[DeviceProfile], NeedleSource] = module.source(pictures)
     return made
+
+
+def named(text: str) -> tuple[str, str]:
+    """Return which source a text names, and where it looks: `NAME:…` of a file here, or the
+    pictures of a pen's webcam, such as `usb:0`.
+    """
+    name, _, rest = text.partition(":")
+    return (name, rest) if name in KIND.names() else ("pen", text)
+
+
+def check(text: str) -> None:
+    """Look at what a text names before a window opens, as far as that is quick.
+
+    Raises:
+        AcusError: if there is no such source, or no such place.
+    """
+    name, place = named(text)
+    declared = KIND.find(name)
+    if name == "pen":
+        parse_source(place)
+    elif (look := getattr(KIND.load(declared), "check", None)) is not None:
+        look(place)
 
 
 def open_preview(name: str, settings: object) -> Any:
