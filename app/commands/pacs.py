@@ -1,5 +1,6 @@
-"""`acus pacs`: ask a PACS, find, and take a series into the library; nothing is written to it."""
+"""`acus pacs`: ask a PACS, find, take a series into the library; send it objects of attempts."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -7,6 +8,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.ct import MASK_HELP, Mend, RemedyGroup
+from app.commands.reader_language import template
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries
     from app.imaging.pacs.settings import PacsSettings
 
-app = Commands(help="Read from a PACS: find series, take them in.", cls=RemedyGroup)
+app = Commands(help="A PACS: find series, take them in, send results.", cls=RemedyGroup)
 
 Server = Annotated[
     str | None, typer.Option("--pacs", metavar="NAME", help="Which, where several are configured.")
@@ -27,6 +29,7 @@ Mask = Annotated[
 SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstanceUID, of `find`.")]
 
 
+PASSWORD = "ACUS_DICOMWEB_PASSWORD"
 RANK = 50
 
 
@@ -179,6 +182,40 @@ def move(
 ) -> Answer:
     """Take a series into the library by C-MOVE. The PACS must know our AE title and port."""
     return _take(study, series, pacs, "move", mask, remedy)
+
+
+@app.command()
+def send(
+    folder: Annotated[
+        Path, typer.Argument(help="That `acus session export ID --dicom FOLDER` has written.")
+    ],
+    pacs: Server = None,
+    web: Annotated[str, typer.Option("--web", metavar="URL", help="A DICOMweb archive.")] = "",
+    user: Annotated[str, typer.Option("--user", help="With --web: name that it gave you.")] = "",
+) -> Answer:
+    """Send an attempt's objects by C-STORE or STOW-RS (instructor).
+
+    With --user the password is asked for, or stands in ACUS_DICOMWEB_PASSWORD.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.commands.doors import instructor, secret
+    from app.imaging.pacs.settings import chosen
+    from app.imaging.pacs.storing import own_objects, store
+    from app.imaging.pacs.stow import WebArchive, stow
+
+    if (web and pacs) or (user and not web):
+        raise typer.BadParameter(sentence("give --pacs NAME, or --web URL and --user NAME with it"))
+    instructor()
+    files = own_objects(folder)
+    if web:
+        given = os.environ.get(PASSWORD, "") if user else ""
+        archive = WebArchive(web, user, given or (secret(sentence("Password")) if user else ""))
+        name, count = archive.name, with_progress(lambda part: stow(archive, files, part))
+    else:
+        settings = chosen(pacs)
+        name, count = settings.name, with_progress(lambda part: store(settings, files, part))
+    words = template("{objects:#1 object|# objects} sent to {to}")
+    return Answer({"to": name, "objects": count}, shown=words)
 
 
 def _take(

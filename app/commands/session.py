@@ -1,7 +1,6 @@
 """`acus session`: recorded attempts."""
 
 from dataclasses import replace
-from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,9 +9,11 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import PASSWORD, instructor, see
-from app.commands.reader_language import cell, known, language, local, tell, template
+from app.commands.reader_language import tell, template
+from app.commands.record_options import RecordsFolder
+from app.commands.session_export import export
+from app.commands.session_lines import detail_lines, details, nobodys, print_table, total_words
 from app.core.messages import counted, joined, sentence
-from app.core.words import printable
 
 Id = Annotated[
     str,
@@ -27,10 +28,6 @@ Record = Annotated[
         help="Session id, or its beginning; or the path of the record.",
         autocompletion=completion.sessions,
     ),
-]
-FolderOption = Annotated[
-    Path | None,
-    typer.Option("--folder", help="Folder of the records."),
 ]
 
 
@@ -71,7 +68,7 @@ def tell_elsewhere() -> None:
         tell(found.words, err=True)
 
 
-def list_(folder: FolderOption = None) -> Answer:
+def list_(folder: RecordsFolder = None) -> Answer:
     """List attempts, newest first. Broken records with the reason.
 
     Those of students are listed for the instructor alone, once one is set: his password stands in
@@ -100,12 +97,12 @@ def list_(folder: FolderOption = None) -> Answer:
     if not summaries:
         none = sentence("no sessions in {folder}", folder=place)
         return Answer(facts, [note if hidden else none])
-    return Answer(facts, lambda: _print_table(summaries, note if hidden else ""))
+    return Answer(facts, lambda: print_table(summaries, note if hidden else ""))
 
 
 def show(
     session_id: Record,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Show one attempt: score, events, what its record holds."""
     from app.session.recording import read_recording
@@ -115,8 +112,8 @@ def show(
     recording = read_recording(find(place, name))
     (summary,) = computed(place, [name])
     see([summary])
-    document = _details(recording, summary.document())
-    return Answer(document, _detail_lines(document, _nobodys(summary.conditions)))
+    document = details(recording, summary.document())
+    return Answer(document, detail_lines(document, nobodys(summary.conditions)))
 
 
 def replay(
@@ -127,7 +124,7 @@ def replay(
             "--check", help="Recompute every tick, and the score; exit code 3 if one differs."
         ),
     ] = False,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Say what a record holds of the robot's loop. --check computes it anew and compares."""
     from app.session.recording import read_recording
@@ -156,7 +153,7 @@ def replay(
 
 def verify(
     session_id: Record,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Compute the score anew and say what differs, and what is signed.
 
@@ -207,7 +204,7 @@ def compare(
     second: Annotated[
         str, typer.Argument(metavar="ID", help="Another one.", autocompletion=completion.sessions)
     ],
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Say whether two scores may be compared. Code 3 with the reasons if not."""
     from app.scoring.conditions import Conditions, comparable
@@ -222,13 +219,13 @@ def compare(
         "reasons": list(reasons),
         "sessions": [summary.document() for summary in pair],
     }
-    lines = [joined("  ", (each.id, _total(each.score, each.signature))) for each in pair]
+    lines = [joined("  ", (each.id, total_words(each.score, each.signature))) for each in pair]
     apart = [sentence("not comparable: {reason}", reason=reason) for reason in reasons]
     lines += apart or [sentence("comparable")]
     return Answer(facts, lines, yes=not reasons)
 
 
-def delete(session_id: Id, folder: FolderOption = None) -> Answer:
+def delete(session_id: Id, folder: RecordsFolder = None) -> Answer:
     """Delete an attempt (instructor); restore it within 30 days."""
     from app.session import store
 
@@ -240,7 +237,7 @@ def delete(session_id: Id, folder: FolderOption = None) -> Answer:
 
 def restore(
     session_id: Annotated[str, typer.Argument(metavar="ID", help="Id of a deleted attempt.")],
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Bring a deleted attempt back (instructor)."""
     from app.session import store
@@ -257,7 +254,7 @@ def recover(
             metavar="[ID]", help="Its id; none lists them.", autocompletion=completion.sessions
         ),
     ] = "",
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """List attempts that were cut off, or close one as it stands.
 
@@ -322,209 +319,7 @@ def gather() -> Answer:
     return Answer(facts, shown=(brought, stay if left else ""))
 
 
-def export(
-    out: Annotated[Path, typer.Option("--out", help="CSV file to write.")],
-    ids: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[ID]...", help="Session ids; none means all."),
-    ] = None,
-    folder: FolderOption = None,
-    trajectory: Annotated[
-        bool, typer.Option("--trajectory", help="One attempt over time instead of the scores.")
-    ] = False,
-) -> Answer:
-    """Export scores, or one attempt over time, as CSV (instructor)."""
-    from app.exchange.csv_export import write_csv
-
-    instructor()
-    place = _folder(folder)
-    text, rows = _trajectory(place, ids) if trajectory else _scores(place, ids)
-    if out.suffix.lower() != ".csv":
-        raise typer.BadParameter(sentence("--out {out}: only .csv can be written", out=out))
-    write_csv(out, text)
-    return Answer(
-        {"files": [out], "rows": rows}, shown=template("{rows:#1 row|# rows} written to {files}")
-    )
-
-
 def _folder(folder: Path | None) -> Path:
     from app.session.store import records_folder
 
     return records_folder(folder)
-
-
-def _scores(folder: Path, ids: list[str] | None) -> tuple[str, int]:
-    from app.exchange.csv_export import score_table
-    from app.session.store import computed
-
-    summaries = computed(folder, list(dict.fromkeys(ids or [])))
-    return score_table(summaries), len(summaries)
-
-
-def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
-    from app.exchange.csv_export import trajectory_table
-    from app.session.recording import read_recording
-    from app.session.store import find
-
-    if ids is None or len(ids) != 1:
-        raise typer.BadParameter(sentence("--trajectory takes exactly one session id"))
-    recording = read_recording(find(folder, ids[0]))
-    return trajectory_table(recording), len(recording.samples.time)
-
-
-def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
-    from app.scoring.odds import published_risks
-    from app.session.tissues import tissues_met
-
-    samples, inputs = recording.samples, recording.inputs
-    met = tissues_met(recording.events)
-    radius = samples.tip_radius()
-    return summary | {
-        "file": str(recording.path),
-        "complete": recording.complete,
-        "metadata": dict(recording.metadata),
-        "tip_radius_95_mm": None if radius is None else 1e3 * radius,
-        "published_risks": [risk.document() for risk in published_risks(met)],
-        "attachments": sorted(recording.attachments),
-        "samples": len(samples.time),
-        "ticks": len(inputs.values),
-        "ticks_lost": inputs.lost,
-        "events": [
-            {
-                "time_s": e.time - recording.origin,
-                "kind": e.kind,
-                "message": e.message,
-                "data": dict(e.data),
-            }
-            for e in recording.events
-        ],
-    }
-
-
-def _print_table(summaries: list[Any], note: str) -> None:
-    from rich.table import Table
-
-    from app.commands.output import console as open_console
-
-    table = Table(box=None, pad_edge=False)
-    table.add_column("id", no_wrap=True, min_width=max(len(s.id) for s in summaries))
-    for title in (
-        sentence("student"),
-        sentence("exercise"),
-        sentence("state"),
-        sentence("duration"),
-        sentence("score"),
-        sentence("signature"),
-    ):
-        table.add_column(local(title), no_wrap=True)
-    table.add_column("", min_width=12)
-    for s in summaries:
-        whose = _nobodys(s.conditions)
-        remark = joined("; ", filter(None, (whose, known(s.reason) or joined("; ", s.problems))))
-        cells = (
-            s.id,
-            s.student,
-            s.exercise_id,
-            _state(s.state),
-            f"{s.duration:.0f} s",
-            _total(s.score, s.signature),
-            known(s.signature),
-            remark,
-        )
-        table.add_row(*(_plain(cell) for cell in cells))
-    console = open_console()
-    if not console.is_terminal:  # a file or a pipe has no width to wrap to
-        console.width = console.measure(table, options=console.options.update(width=10**4)).maximum
-    console.print(table)
-    if note:
-        tell(note)
-
-
-def _plain(text: str) -> Any:
-    """Text that no markup is read from: pseudonyms and reasons are other people's words."""
-    from rich.text import Text
-
-    return Text(printable(local(text)))
-
-
-def _total(score: Any, signature: str) -> str:
-    if signature == "altered":
-        return sentence("— altered")
-    if not score:
-        return "-"
-    if score.get("total") is None:
-        return sentence("void")
-    if score.get("passed"):
-        return sentence("{total:.0f} % passed", total=score["total"])
-    return sentence("{total:.0f} %", total=score["total"])
-
-
-def _nobodys(conditions: Any) -> str:
-    """Say that an attempt is nobody's, and what held the needle; empty for a person's."""
-    if conditions is None or conditions.by_person:
-        return ""
-    hands = known(conditions.hand or "script")
-    if conditions.taken_over:
-        later = known(conditions.taken_over)
-        hands = sentence("{first} then {later}", first=hands, later=later)
-    return sentence("no student's attempt: {hands}", hands=hands)
-
-
-def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
-    from app.scoring.rows import shown_sd
-    from app.scoring.unit_words import unit_words
-
-    score, metadata = document["score"] or {}, document["metadata"]
-    radius, exercise = document["tip_radius_95_mm"], document["exercise"]
-    hand = metadata.get("trainee", {}).get("hand")
-    certainty = sentence("± {radius:.1f} mm (95 %), median", radius=radius or 0.0)
-    heads = (
-        ("id", document["id"]),
-        (sentence("started"), datetime.fromisoformat(document["started"]).astimezone()),
-        (sentence("student"), document["student"]),
-        (sentence("state"), _state(document["state"])),
-        (sentence("reason"), known(document["reason"])),
-        (sentence("duration"), sentence("{seconds:.1f} s", seconds=document["duration_s"])),
-        (sentence("scans"), document["scans"]),
-        (sentence("file"), document["file"]),
-        (sentence("exercise"), _titled(exercise)),
-        (sentence("hand"), hand or sentence("not recorded")),
-        (sentence("whose"), nobodys or None),
-        (sentence("calibration"), document["calibration"] or None),
-        (sentence("tip known to"), None if radius is None else certainty),
-        (sentence("score"), _total(document["score"], document.get("signature", ""))),
-        (sentence("void"), known(score.get("void_reason") or "") or None),
-    )
-    lines = [_head(name, value) for name, value in heads if value is not None]
-    for row in score.get("rows", []):
-        sd = shown_sd(row["name"], row["value"], row.get("sd"))
-        unsure = f" ± {language().number(sd, '.1g')}" if sd else ""
-        value, unit = "-", local(unit_words(row["unit"]))
-        if row["value"] is not None:
-            value = f"{language().number(row['value'], '.4g')}{unsure} {unit}"
-        band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
-        label = known(row["label"])
-        lines.append(f"  {label:32} {value:>20}  {known(band or row['note'] or '')}")
-    for risk in document["published_risks"]:
-        source = f" ({risk['source']})" if risk["source"] else ""
-        lines.append(_head(sentence("published"), joined("", (risk["statement"], source))))
-    for event in document["events"]:
-        time = language().number(event["time_s"], "12.3f")
-        lines.append(f"  {time} s  {known(event['message'])}")
-    lines += [_head(sentence("problem"), problem) for problem in document["problems"]]
-    return [*lines, known(document["note"])]
-
-
-def _state(state: str) -> str:
-    """Return the word for a recorded state; the window has it with a capital."""
-    word = known(state.capitalize())
-    return state if word == state.capitalize() else word
-
-
-def _head(name: str, value: Any) -> str:
-    """Return a line of a table of two columns in the reader's language."""
-    return f"{local(name):12} {cell(value)}".rstrip()
-
-
-def _titled(exercise: dict[str, Any]) -> str:
-    return f"{known(exercise['title'] or '')} ({exercise['id']})"

@@ -14,6 +14,7 @@ from pacs_rig import free_port
 from app.imaging.pacs.settings import PacsSettings
 
 STARTS_WITHIN_S = 60.0
+WEB = Path("/usr/share/orthanc/plugins/libOrthancDicomWeb.so")
 
 
 def binary() -> str | None:
@@ -22,10 +23,13 @@ def binary() -> str | None:
 
 
 class Orthanc:
-    """One archive with its own storage; anonymous, nobody but this computer may ask it."""
+    """One archive with its own storage; anonymous, nobody but this computer may ask it.
 
-    def __init__(self, root: Path) -> None:
-        self.root, self.title = root, "ORTHANC"
+    With `web` it speaks DICOMweb too, by Debian's plug-in.
+    """
+
+    def __init__(self, root: Path, web: bool = False) -> None:
+        self.root, self.title, self._web = root, "ORTHANC", web
         self.port, self.http, self.own_port = free_port(), free_port(), free_port()
 
     def __enter__(self) -> "Orthanc":
@@ -34,6 +38,10 @@ class Orthanc:
             if os.environ.get("CI"):
                 pytest.fail("Orthanc is not installed: tools/install-system installs it")
             pytest.skip("Orthanc is not installed: apt-get install orthanc")
+        if self._web and not WEB.exists():
+            if os.environ.get("CI"):
+                pytest.fail("orthanc-dicomweb is not installed: tools/install-system installs it")
+            pytest.skip("DICOMweb is not installed: apt-get install orthanc-dicomweb")
         self.root.mkdir(parents=True, exist_ok=True)
         configuration = self.root / "orthanc.json"
         configuration.write_text(json.dumps(self._document()))
@@ -65,6 +73,11 @@ class Orthanc:
         }  # fmt: skip
         return PacsSettings(**(given | changed))
 
+    @property
+    def web(self) -> str:
+        """Where it speaks DICOMweb."""
+        return f"http://127.0.0.1:{self.http}/dicom-web"
+
     def store(self, folder: Path) -> None:
         """Fill it as a scanner would (C-STORE)."""
         import pydicom
@@ -86,7 +99,7 @@ class Orthanc:
             "IndexDirectory": str(self.root / "storage"),
             "DicomAet": self.title, "DicomPort": self.port, "DicomCheckCalledAet": True,
             "HttpPort": self.http, "HttpServerEnabled": True, "RemoteAccessAllowed": False,
-            "AuthenticationEnabled": False, "Plugins": [],
+            "AuthenticationEnabled": False, "Plugins": [str(WEB)] if self._web else [],
             "DicomAlwaysAllowEcho": True, "DicomAlwaysAllowStore": True,
             "DicomAlwaysAllowFind": False, "DicomAlwaysAllowGet": False,
             "DicomModalities": {
@@ -101,7 +114,8 @@ class Orthanc:
             if self._process.poll() is not None:
                 break
             try:
-                socket.create_connection(("127.0.0.1", self.port), 1.0).close()
+                for port in (self.port, self.http):
+                    socket.create_connection(("127.0.0.1", port), 1.0).close()
                 return
             except OSError:
                 time.sleep(0.1)

@@ -178,6 +178,14 @@ def test_outlines_are_closed_and_turn_the_other_way_round_holes():
     assert len(outlines(np.ones((4, 4)))) == 1
 
 
+@pytest.mark.parametrize("around", [0, 1])
+def test_an_edge_lies_half_a_voxel_outside_at_the_box_too(around):
+    """A voxel reaches half its size from its centre (DICOM PS3.3 C.7.6.2.1.1)."""
+    (line,) = outlines(np.pad(np.ones((4, 6)), around))
+    assert line.min(axis=0) == pytest.approx([around - 0.5] * 2)
+    assert line.max(axis=0) == pytest.approx([around + 5.5, around + 3.5])
+
+
 def test_two_corners_across_from_each_other_give_two_lines():
     assert len(outlines(np.eye(2))) == 2
 

@@ -13,6 +13,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from app.core import paths
+from app.core.files import BINARY
 from app.core.messages import sentence
 from app.imaging.privacy.errors import KeyDamagedError
 
@@ -71,7 +72,8 @@ def _make(path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.{secrets.token_hex(16)}")
     try:
-        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | BINARY
+        with os.fdopen(os.open(beside, flags, 0o600), "wb") as file:
             file.write(secrets.token_bytes(BYTES))
             file.flush()
             os.fsync(file.fileno())

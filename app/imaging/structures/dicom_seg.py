@@ -93,36 +93,12 @@ def write_seg_file(
         ExtraMissingError: without the extra `structures`.
         OSError: if it cannot be written.
     """
-    highdicom = extra("highdicom", "DICOM SEG files")
-    from pydicom.sr.coding import Code
-
-    headers = []
-    for number, path in enumerate(sources, 1):
-        progress.report(
-            0.5 * number / len(sources),
-            sentence("file {current} of {count}", current=number, count=len(sources)),
-        )
-        headers.append(_header(path, number))
+    extra("highdicom", "DICOM SEG files")
+    headers = read_headers(sources, progress.part(0.0, 0.5))
     names = repr([(one.name, one.corner, one.mask.tobytes()) for one in structures])
+    uids = _uid("series", series_uid, names), _uid("instance", series_uid, names)
     try:
-        segmentation = highdicom.seg.Segmentation(
-            source_images=headers,
-            pixel_array=np.stack([_whole(one, size) for one in structures], axis=-1),
-            segmentation_type="BINARY",
-            segment_descriptions=[
-                _description(highdicom, Code, number, one)
-                for number, one in enumerate(structures, start=1)
-            ],
-            series_instance_uid=_uid("series", series_uid, names),
-            series_number=300,
-            sop_instance_uid=_uid("instance", series_uid, names),
-            instance_number=1,
-            manufacturer="Acus",
-            manufacturer_model_name="Acus trainer",
-            software_versions="1",
-            device_serial_number="0",
-            content_label="STRUCTURES",
-        )
+        found = segmentation(headers, structures, size, uids)
     except (AttributeError, TypeError, ValueError) as error:
         lacking = getattr(error, "name", None) or brief(error)
         raise StructureFileError(
@@ -132,7 +108,65 @@ def write_seg_file(
                 lacking=lacking,
             )
         ) from error
-    segmentation.save_as(to)
+    found.save_as(to)
+
+
+def read_headers(sources: tuple[Path, ...], progress: Progress) -> list[Any]:
+    """Return the headers of a CT's files, in their order.
+
+    Raises:
+        StructureFileError: if one cannot be read.
+    """
+    headers = []
+    for number, path in enumerate(sources, 1):
+        progress.report(
+            number / len(sources),
+            sentence("file {current} of {count}", current=number, count=len(sources)),
+        )
+        headers.append(_header(path, number))
+    return headers
+
+
+def segmentation(
+    headers: list[Any],
+    structures: tuple[PlacedStructure, ...],
+    size: tuple[int, int, int],
+    uids: tuple[str, str],
+) -> Any:
+    """Return a binary segmentation of structures on the grid of a CT.
+
+    Args:
+        headers: of the CT's files, in their order.
+        structures: on its grid.
+        size: columns, rows, slices.
+        uids: of its series and of itself.
+
+    Raises:
+        AttributeError, TypeError, ValueError: if the CT lacks what has to be repeated of it.
+    """
+    highdicom = extra("highdicom", "DICOM SEG files")
+    from pydicom.sr.coding import Code
+
+    found = highdicom.seg.Segmentation(
+        source_images=headers,
+        pixel_array=np.stack([_whole(one, size) for one in structures], axis=-1),
+        segmentation_type="BINARY",
+        segment_descriptions=[
+            _description(highdicom, Code, number, one)
+            for number, one in enumerate(structures, start=1)
+        ],
+        series_instance_uid=uids[0],
+        series_number=300,
+        sop_instance_uid=uids[1],
+        instance_number=1,
+        manufacturer="Acus",
+        manufacturer_model_name="Acus trainer",
+        software_versions="1",
+        device_serial_number="0",
+        content_label="STRUCTURES",
+    )
+    found.SpecificCharacterSet = "ISO_IR 192"  # that of the CT may lack letters of the names
+    return found
 
 
 def _header(path: Path, number: int) -> Any:

@@ -69,16 +69,16 @@ _LINES = {
 
 
 def outlines(values: NDArray[np.floating], level: float = 0.5) -> list[FloatArray]:
-    """Return the closed lines at which an array passes `level`; beyond its edges counts as below.
+    """Return the closed lines at which an array passes `level`; beyond its edges lies 0.
 
     Args:
         values: shape (rows, columns).
-        level: of the lines.
+        level: of the lines, above 0.
 
     Returns:
         Lines of points (column, row) as floats, each of shape (n, 2), the last joined to the first.
     """
-    padded = np.pad(np.asarray(values, np.float64), 1, constant_values=level - 1.0)
+    padded = np.pad(np.asarray(values, np.float64), 1)
     inside = padded >= level
     if not inside.any():
         return []
