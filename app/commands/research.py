@@ -9,6 +9,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.reader_language import template
+from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each
 from app.core.messages import sentence
 
@@ -22,7 +23,6 @@ Student = Annotated[
     str,
     typer.Argument(metavar="STUDENT", help="Pseudonym.", autocompletion=completion.students),
 ]
-FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 RANK = 115
 
@@ -226,7 +226,7 @@ def leave(
 
 def status(
     study: Annotated[str, typer.Argument(metavar="STUDY", help="Its id; all without it.")] = "",
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Show who is enrolled, and which visits are due (instructor).
 
@@ -281,7 +281,7 @@ def lock(
 def bundle(
     study: StudyName,
     out: Annotated[Path, typer.Option("--out", help="File to write, .zip.")],
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Write all of a study as one file that names nobody (instructor).
 
@@ -301,6 +301,7 @@ def bundle(
         "attempts": done.attempts,
         "series": done.series,
         "digest": done.digest,
+        "without": list(done.without),
     }
     shown = (
         template(
@@ -308,6 +309,7 @@ def bundle(
             "written to {files}"
         ),
         template("its digest, to be stated with the results: {digest}"),
+        Each("without", template("left out: {}")),
     )
     return Answer(facts, shown=shown)
 
@@ -328,13 +330,17 @@ def verify(
         "digest": found.digest,
         "files": found.files,
         "scores": found.scores,
+        "made_again": found.made_again,
         "problems": list(found.problems),
+        "notes": list(found.notes),
     }
     shown = (
         template(
-            "{study}: {files:#1 file|# files} as stated, {scores:#1 score|# scores} computed again"
+            "{study}: {files:#1 file|# files} as stated; made again: {scores:#1 score|# scores}, "
+            "{made_again:#1 table or figure|# tables and figures}"
         ),
         template("digest: {digest}"),
+        Each("notes", template("{}")),
         Each("problems", "✖ {}"),
     )
     return Answer(facts, yes=not found.problems, shown=shown)

@@ -18,6 +18,7 @@ import platform
 import re
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -36,6 +37,8 @@ from app.core.words import printable
 from app.exercises.writing import exercise_text
 from app.research.allocation_list import allocation_lists, open_hidden
 from app.research.attempts import StudyAttempt, attempts_of, consort_rows
+from app.research.bundle_figures import bundle_figures, matplotlib_version
+from app.research.bundle_tables import parquet_files
 from app.research.codebook import CODEBOOK, TABLES, codebook_rows, metric_rows
 from app.research.errors import ResearchError
 from app.research.ledger import ANSWERED, Participant, participants_of
@@ -52,6 +55,7 @@ from app.session.verify import judged_by, verify
 FORM: Final = "acus-research-bundle/1"
 MANIFEST: Final = "manifest.json"
 _TIME: Final = (1980, 1, 1, 0, 0, 0)
+_PACKED: Final = (".gz", ".parquet")
 _SHORTEST: Final = 3
 """A pseudonym of fewer letters is a word of its own in any text."""
 
@@ -66,6 +70,7 @@ class Bundled:
         participants: how many.
         attempts: how many.
         series: of how many attempts a series is in it.
+        without: what is not in it because a package is not installed, one line each.
         digest: SHA-256 of the manifest, which holds those of all files: state it where the study
             is published.
     """
@@ -74,6 +79,7 @@ class Bundled:
     attempts: int
     series: int
     digest: str
+    without: tuple[str, ...] = ()
 
 
 def write_bundle(
@@ -104,6 +110,12 @@ def write_bundle(
     with_series = {code for code in codes.values() if f"series/{code}.csv.gz" in files}
     files |= _tables(study, entries, everybody, attempts, codes, with_series)
     files |= _documents(study, people)
+    without = []
+    for make in (parquet_files, bundle_figures):
+        try:
+            files |= make(files)
+        except ResearchError as error:  # its package is not installed
+            without.append(str(error))
     _check_private(files, people)
     manifest = {
         "form": FORM,
@@ -115,9 +127,8 @@ def write_bundle(
     files[MANIFEST] = _json(manifest)
     _write(out, files)
     digest = hashlib.sha256(files[MANIFEST]).hexdigest()
-    return Bundled(
-        len(everybody), len(attempts), sum(n.startswith("series/") for n in files), digest
-    )
+    series = sum(name.startswith("series/") for name in files)
+    return Bundled(len(everybody), len(attempts), series, digest, tuple(without))
 
 
 def table_bytes(columns: Sequence[str], rows: Rows) -> bytes:
@@ -292,6 +303,8 @@ def _documents(study: ResearchStudy, people: People) -> dict[str, bytes]:
         "numpy": np.__version__,
         "machine": platform.machine(),
     }
+    with suppress(ResearchError):
+        versions["matplotlib"] = matplotlib_version()
     files = {
         "design.yaml": text.encode(),
         "analysis_plan.txt": (design.analysis_plan.rstrip() + "\n").encode(),
@@ -324,8 +337,8 @@ def _check_private(files: Mapping[str, bytes], people: People) -> None:
         return
     pattern = re.compile(rf"(?<!\w)(?:{'|'.join(sought)})(?!\w)", re.IGNORECASE)
     for name, data in files.items():
-        if name.endswith(".gz"):
-            continue  # numbers and phases alone
+        if name.endswith(_PACKED):
+            continue  # numbers and phases alone, or what stands in a table of text too
         if pattern.search(data.decode()):
             raise ResearchError(
                 sentence(
@@ -345,8 +358,8 @@ def _write(out: Path, files: Mapping[str, bytes]) -> None:
                 for name, data in sorted(files.items()):
                     info = zipfile.ZipInfo(name, _TIME)
                     info.external_attr = 0o644 << 16
-                    packed = not name.endswith(".gz")
-                    info.compress_type = zipfile.ZIP_DEFLATED if packed else zipfile.ZIP_STORED
+                    packed = name.endswith(_PACKED)
+                    info.compress_type = zipfile.ZIP_STORED if packed else zipfile.ZIP_DEFLATED
                     archive.writestr(info, data)
             stream.flush()
             os.fsync(stream.fileno())
@@ -366,8 +379,10 @@ consort.csv: what each column means stands in codebook.csv, what each metric mea
 metrics_codebook.csv. Empty cells are not known. Days count from enrolment; there are no dates.
 
 series/CODE.csv.gz is an attempt over time, attempts/CODE.json its plan, tolerances and score:
-together they give the score again. allocation.json opens the list of allocations: SHA-256 of nonce
-and list is the commitment that was registered. manifest.json holds the SHA-256 of every file.
+together they give the score again. parquet/ holds the same tables with their types and all series
+in one, figures/ is drawn from the tables (both where their packages were installed).
+allocation.json opens the list of allocations: SHA-256 of nonce and list is the commitment that was
+registered. manifest.json holds the SHA-256 of every file.
 `acus research verify FILE` checks all of it.
 
 R:       attempts <- read.csv("attempts.csv")

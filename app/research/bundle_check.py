@@ -18,6 +18,10 @@ from app.core.messages import sentence
 from app.core.progress import Progress
 from app.research.allocation_list import allocation_lists, commitment
 from app.research.bundle import FORM, MANIFEST
+from app.research.bundle_figures import FOLDER as FIGURES
+from app.research.bundle_figures import bundle_figures, matplotlib_version
+from app.research.bundle_tables import FOLDER as PARQUET
+from app.research.bundle_tables import differing_tables
 from app.research.design import ResearchDesign
 from app.research.errors import ResearchError
 from app.research.series import BROKEN, differences
@@ -35,14 +39,18 @@ class BundleReport:
         digest: SHA-256 of its manifest.
         files: how many have the hash that the manifest states.
         scores: how many were computed again and are as written.
+        made_again: how many Parquet tables and figures were made again and are as written.
         problems: what is not as it should be, one line each.
+        notes: what could not be looked at here, one line each.
     """
 
     study: str
     digest: str
     files: int
     scores: int
+    made_again: int
     problems: tuple[str, ...]
+    notes: tuple[str, ...]
 
 
 def check_bundle(path: Path, progress: Progress | None = None) -> BundleReport:
@@ -130,7 +138,52 @@ def _checked(bundle: _Bundle, progress: Progress) -> BundleReport:
         found = _attempt_problems(bundle, row)
         scores += bool(row.get("series")) and not found
         problems += found
-    return BundleReport(study, hashlib.sha256(raw).hexdigest(), sound, scores, tuple(problems))
+    again, wrong, notes = _made_again(bundle, stated)
+    return BundleReport(
+        study=study,
+        digest=hashlib.sha256(raw).hexdigest(),
+        files=sound,
+        scores=scores,
+        made_again=again,
+        problems=(*problems, *wrong),
+        notes=tuple(notes),
+    )
+
+
+def _made_again(bundle: _Bundle, stated: Mapping[str, str]) -> tuple[int, list[str], list[str]]:
+    """Make Parquet tables and figures again from the CSV files: how many, what differs, notes."""
+    plain = ("design.yaml", "software.json", ".csv", ".csv.gz")
+    there = {name: bundle.read(name) for name in stated if name in bundle.names}
+    files = {name: data for name, data in there.items() if name.endswith(plain)}
+    parquet = {name: data for name, data in there.items() if name.startswith(PARQUET)}
+    figures = {name: data for name, data in there.items() if name.startswith(FIGURES)}
+    wrong, notes, count = list[str](), list[str](), 0
+    if parquet:
+        try:
+            differing = differing_tables(files, parquet)
+            wrong += [sentence("{file} is not what the tables hold", file=one) for one in differing]
+            count += len(parquet) - len(differing)
+        except ResearchError as error:
+            notes.append(sentence("Parquet was not compared: {reason}", reason=error))
+    if figures:
+        try:
+            drawn_by, here = json.loads(files["software.json"])["matplotlib"], matplotlib_version()
+            if drawn_by != here:
+                words = sentence(
+                    "figures were drawn by matplotlib {there}, here is {here}: not compared",
+                    there=drawn_by,
+                    here=here,
+                )
+                return count, wrong, [*notes, words]
+            drawn = bundle_figures(files)
+            differing = sorted(n for n in {*figures, *drawn} if figures.get(n) != drawn.get(n))
+            wrong += [sentence("{file} is not what the tables give", file=one) for one in differing]
+            count += len(figures) - len(differing)
+        except ResearchError as error:
+            notes.append(sentence("figures were not drawn again: {reason}", reason=error))
+        except (AcusError, *BROKEN) as error:
+            wrong.append(sentence("figures cannot be drawn again: {reason}", reason=error))
+    return count, wrong, notes
 
 
 def _hash_problems(bundle: _Bundle, stated: Mapping[str, str]) -> list[str]:

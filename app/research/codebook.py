@@ -140,6 +140,8 @@ def _series_column(name: str) -> Column:
     return Column(name, kind, unit, _OF_SERIES[name], "record")
 
 
+SERIES_FILES: Final = "series/*.csv.gz"
+
 TABLES: Final = {
     "participants.csv": PARTICIPANTS,
     "attempts.csv": ATTEMPTS,
@@ -147,7 +149,7 @@ TABLES: Final = {
     "answers.csv": ANSWERS,
     "consort.csv": CONSORT,
     "metrics_codebook.csv": METRICS_CODEBOOK,
-    "series/*.csv.gz": tuple(map(_series_column, SERIES)),
+    SERIES_FILES: tuple(map(_series_column, SERIES)),
 }
 """Columns by file."""
 

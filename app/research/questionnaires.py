@@ -7,6 +7,7 @@ import io
 import math
 from collections import Counter
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -14,7 +15,7 @@ from pydantic import Field, model_validator
 
 from app.core import paths
 from app.core.configuration import Strict, load
-from app.core.errors import ConfigurationError
+from app.core.errors import AcusError, ConfigurationError
 from app.core.files import read_at_most
 from app.core.messages import sentence
 from app.research.design import Name
@@ -33,11 +34,13 @@ class Item(Strict):
         name: of the item.
         wording: as it is asked.
         reversed: whether a high answer speaks against what is asked for.
+        ends: what the least and the largest answer mean, where they are the item's own.
     """
 
     name: ItemName
     wording: Annotated[str, Field(min_length=1)]
     reversed: bool = False
+    ends: tuple[str, str] | None = None
 
 
 class ItemWeights(Strict):
@@ -206,6 +209,16 @@ def questionnaires_folders() -> tuple[Path, Path]:
     """Return where questionnaires lie: the shipped folder and the user's."""
     shipped = paths.resources() / "research" / "questionnaires"
     return shipped, paths.data() / "questionnaires"
+
+
+def questionnaire_titles() -> dict[str, str]:
+    """Return the titles of the questionnaires that are here, by id; a broken one has its id."""
+    titles: dict[str, str] = {}
+    for path in (path for place in questionnaires_folders() for path in place.glob("*.yaml")):
+        titles[path.stem] = path.stem
+        with suppress(AcusError):
+            titles[path.stem] = load(path, Questionnaire).title
+    return dict(sorted(titles.items(), key=lambda pair: pair[1].casefold()))
 
 
 def find_questionnaire(name: str) -> Questionnaire:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
 from functools import cached_property
@@ -51,6 +51,8 @@ EXERCISE: Final = "exercise-{number}.yaml"
 _LARGEST_LIST: Final = 1 << 27
 
 Clock = Callable[[], datetime]
+_Place = tuple[str, str, str]
+"""Code, visit and questionnaire of an answer."""
 
 
 def now_utc() -> datetime:
@@ -234,36 +236,12 @@ class ResearchStudy:
             ResearchError: naming the first row that cannot be.
             PeopleError: if somebody is no student here.
         """
-        salt, scores = self.salt(people), list[dict[str, float]]()
-        visits = [visit.name for visit in self.design.visits]
+        scores = list[dict[str, float]]()
         with self.ledger.adding() as (there, new):
             self._check_unlocked(locked_at(there))
-            codes = {one.person: one.code for one in participants_of(there) if not one.withdrawn}
-            answered = [one for one in there if one["kind"] == ANSWERED]
-            known = {(one["code"], one["visit"], one["questionnaire"]) for one in answered}
+            codes, known = _codes(there), _answered(there)
             for row in rows:
-                code = codes.get(digest_of_person(salt, people.find(row.student).key))
-                if code is None or row.visit not in visits:
-                    raise ResearchError(
-                        sentence(
-                            "{pseudonym} at {visit!r}: not enrolled, withdrawn, or no visit of "
-                            "{study}; its visits are {visits}",
-                            pseudonym=row.student,
-                            visit=row.visit,
-                            study=self.design.id,
-                            visits=", ".join(visits),
-                        )
-                    )
-                place = (code, row.visit, questionnaire.id)
-                if place in known:
-                    raise ResearchError(
-                        sentence(
-                            "{pseudonym} has answered {questionnaire} at {visit} already",
-                            pseudonym=row.student,
-                            questionnaire=questionnaire.id,
-                            visit=row.visit,
-                        )
-                    )
+                place = self._place(row.student, row.visit, questionnaire, people, codes, known)
                 known.add(place)
                 scores.append(questionnaire.scored(row.answers))
                 head = dict(zip(("code", "visit", "questionnaire"), place, strict=True))
@@ -277,6 +255,54 @@ class ResearchStudy:
                     }
                 )
         return scores
+
+    def check_answerable(
+        self, student: str, visit: str, questionnaire: Questionnaire, people: People
+    ) -> None:
+        """Refuse whoever cannot answer a questionnaire before he begins with it.
+
+        Raises:
+            ResearchError: if the data are locked, he takes no part, or has answered it.
+            PeopleError: if he is no student here.
+        """
+        there = self.ledger.entries()
+        self._check_unlocked(locked_at(there))
+        self._place(student, visit, questionnaire, people, _codes(there), _answered(there))
+
+    def _place(
+        self,
+        student: str,
+        visit: str,
+        questionnaire: Questionnaire,
+        people: People,
+        codes: Mapping[str, str],
+        known: Collection[_Place],
+    ) -> _Place:
+        """Return where an answer stands, which nobody has given yet."""
+        visits = [one.name for one in self.design.visits]
+        code = codes.get(digest_of_person(self.salt(people), people.find(student).key))
+        if code is None or visit not in visits:
+            raise ResearchError(
+                sentence(
+                    "{pseudonym} at {visit!r}: not enrolled, withdrawn, or no visit of "
+                    "{study}; its visits are {visits}",
+                    pseudonym=student,
+                    visit=visit,
+                    study=self.design.id,
+                    visits=", ".join(visits),
+                )
+            )
+        place = (code, visit, questionnaire.id)
+        if place in known:
+            raise ResearchError(
+                sentence(
+                    "{pseudonym} has answered {questionnaire} at {visit} already",
+                    pseudonym=student,
+                    questionnaire=questionnaire.id,
+                    visit=visit,
+                )
+            )
+        return place
 
     def lock(self, by: str) -> str:
         """Lock the data: nobody is enrolled any more, and arms are shown; return when.
@@ -339,6 +365,16 @@ class ResearchStudy:
                 )
             )
         return ",".join(f"{factor}={stratum[factor]}" for factor in wanted) or "all"
+
+
+def _codes(entries: Sequence[dict[str, Any]]) -> dict[str, str]:
+    """Return the codes of those who take part, by the digest of the person."""
+    return {one.person: one.code for one in participants_of(entries) if not one.withdrawn}
+
+
+def _answered(entries: Sequence[dict[str, Any]]) -> set[_Place]:
+    answered = (one for one in entries if one["kind"] == ANSWERED)
+    return {(one["code"], one["visit"], one["questionnaire"]) for one in answered}
 
 
 def research_folder() -> Path:

@@ -45,6 +45,14 @@ def status_of(study: ResearchStudy, people: People, records: Path) -> dict[str, 
     }
 
 
+def taking_part(study: ResearchStudy, people: People) -> list[str]:
+    """Return the pseudonyms of who takes part at this station and has not left, in their order."""
+    salt = study.salt(people)
+    inside = {one.person for one in study.participants() if not one.left}
+    found = [p.pseudonym for p in people.everybody() if digest_of_person(salt, p.key) in inside]
+    return sorted(found, key=str.casefold)
+
+
 def due(
     design: ResearchDesign,
     participants: list[Participant],

@@ -14,10 +14,13 @@ import zipfile
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from types import SimpleNamespace
+from xml.etree import ElementTree as ET
 
 import numpy as np
+import pyarrow.parquet
 import pytest
 import yaml
+from scipy import stats
 
 sys.path.append(str(Path(__file__).parents[1] / "session"))
 import session_fakes
@@ -27,6 +30,8 @@ from app.core import paths
 from app.research import ResearchError, begin
 from app.research.bundle import write_bundle
 from app.research.bundle_check import check_bundle
+from app.research.bundle_figures import OUTCOME, bundle_figures, participant_means, t_interval
+from app.research.bundle_tables import SERIES_TABLE
 from app.research.series import attempt_document, differences, series_table, trajectory_of
 from app.session.people import People
 from app.session.recording import read_recording
@@ -101,6 +106,8 @@ def contents(path):
 
 
 def plain(name, data):
+    if name.endswith(".parquet"):
+        return str(pyarrow.parquet.read_table(io.BytesIO(data)).to_pydict()).encode()
     return gzip.decompress(data) if name.endswith(".gz") else data
 
 
@@ -214,7 +221,11 @@ def test_r_reads_the_tables_as_they_are(here, tmp_path):
 
 def test_a_file_that_was_changed_is_named(here, tmp_path):
     changed = rewritten(here.path, tmp_path / "c.zip", {"consort.csv": b"stage\n"}, hashed=False)
-    assert check_bundle(changed).problems == ("consort.csv was changed after the bundle was made",)
+    assert check_bundle(changed).problems == (
+        "consort.csv was changed after the bundle was made",
+        "parquet/consort.parquet is not what the tables hold",
+        "figures/consort.svg is not what the tables give",
+    )
 
 
 def test_a_score_that_its_series_does_not_give_is_named_also_where_all_hashes_fit(here, tmp_path):
@@ -245,8 +256,9 @@ def test_a_participant_in_another_arm_than_the_committed_list_gives_is_named(her
         r",(un)?guided,", lambda m: ",guided," if m[1] else ",unguided,", text, count=1
     )
     changed = rewritten(here.path, tmp_path / "c.zip", {"participants.csv": swapped.encode()})
-    (problem,) = check_bundle(changed).problems
+    problem, table_of_it = check_bundle(changed).problems
     assert "is not in the arm that the list gives" in problem
+    assert table_of_it == "parquet/participants.parquet is not what the tables hold"
 
 
 @pytest.mark.parametrize("harm", ["cut", "empty", "text", "none"])
@@ -351,3 +363,108 @@ def test_nothing_of_who_withdrew_the_data_or_was_erased_is_in_the_bundle(fresh, 
     assert (len(rows), rows[gone]["withdrawn"], rows[gone]["left_reason"]) == (4, "1", "not given")
     assert len({row["participant"] for row in table(files, "attempts.csv")} - {gone}) == 1
     assert check_bundle(fresh / "b.zip").problems == ()
+
+
+# --- Parquet and figures --------------------------------------------------------------------------
+def test_parquet_holds_what_the_csv_files_hold_and_has_their_types(here):
+    files = contents(here.path)
+    attempts = pyarrow.parquet.read_table(io.BytesIO(files["parquet/attempts.parquet"]))
+    rows = table(files, "attempts.csv")
+    assert attempts.num_rows == len(rows)
+    scores = [row["score_total"] for row in rows]
+    assert attempts["score_total"].to_pylist() == [float(x) if x else None for x in scores]
+    kinds = {name: str(attempts.schema.field(name).type) for name in ("arm", "day", "passed")}
+    assert kinds == {"arm": "string", "day": "int64", "passed": "bool"}
+
+
+def test_all_series_stand_in_one_parquet_file_to_the_last_digit(here):
+    files = contents(here.path)
+    series = pyarrow.parquet.read_table(io.BytesIO(files[SERIES_TABLE])).to_pydict()
+    names = [name for name in sorted(files) if name.startswith("series/")]
+    lines = [
+        line.split(",")
+        for name in names
+        for line in gzip.decompress(files[name]).decode().splitlines()[1:]
+    ]
+    assert len(series["attempt"]) == len(lines)
+    assert set(series["attempt"]) == {name[7:-7] for name in names}
+    assert [repr(x) for x in series["tip_z_m"]] == [line[4] for line in lines]
+
+
+def test_a_bundle_makes_its_tables_and_figures_again(here):
+    report = check_bundle(here.path)
+    assert (report.problems, report.notes) == ((), ())
+    assert report.made_again == 7 + 2
+
+
+@pytest.mark.parametrize("name", ["parquet/attempts.parquet", SERIES_TABLE, OUTCOME])
+def test_a_table_or_figure_of_other_data_is_named(here, tmp_path, name):
+    files = contents(here.path)
+    if name.endswith(".svg"):
+        other = files[name].replace(b"points", b"Points")
+    else:
+        held = pyarrow.parquet.read_table(io.BytesIO(files[name]))
+        stream = io.BytesIO()
+        pyarrow.parquet.write_table(held.slice(1), stream)
+        other = stream.getvalue()
+    assert other != files[name]
+    rewritten(here.path, tmp_path / "other.zip", {name: other})
+    report = check_bundle(tmp_path / "other.zip")
+    assert len(report.problems) == 1
+    assert report.problems[0].startswith(f"{name} is not what")
+
+
+def test_a_parquet_file_that_is_garbage_is_named(here, tmp_path):
+    name = "parquet/metrics.parquet"
+    rewritten(here.path, tmp_path / "other.zip", {name: b"PAR1" + bytes(64)})
+    assert check_bundle(tmp_path / "other.zip").problems == (f"{name} is not what the tables hold",)
+
+
+def test_figures_of_another_matplotlib_are_not_compared_and_that_is_said(here, monkeypatch):
+    monkeypatch.setattr("app.research.bundle_check.matplotlib_version", lambda: "0.0")
+    report = check_bundle(here.path)
+    assert report.problems == ()
+    assert report.made_again == 7
+    assert "here is 0.0: not compared" in report.notes[0]
+
+
+def test_without_the_packages_a_bundle_is_written_and_says_what_is_left_out(
+    here, tmp_path, monkeypatch
+):
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow.csv", None)
+    monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
+    done = write_bundle(here.study, here.people, here.records, tmp_path / "plain.zip")
+    assert len(done.without) == 2
+    assert all("extra `research`" in line for line in done.without)
+    monkeypatch.undo()
+    with zipfile.ZipFile(tmp_path / "plain.zip") as archive:
+        assert not [n for n in archive.namelist() if n.startswith(("parquet/", "figures/"))]
+
+
+def test_a_participant_weighs_the_same_however_often_he_tried():
+    attempts = [
+        {"attempt": f"a{k}", "arm": "x", "visit": "pre", "participant": who, "score_total": total}
+        for k, (who, total) in enumerate([("p", "50.0"), ("p", "70.0"), ("q", "90.0"), ("q", "")])
+    ]
+    assert participant_means("score_total", attempts, []) == {("x", "pre"): [60.0, 90.0]}
+
+
+def test_the_interval_of_a_mean_is_that_of_scipy():
+    values = np.random.default_rng(4).normal(60.0, 9.0, 11)
+    low, high = stats.t.interval(0.95, 10, values.mean(), stats.sem(values))
+    assert t_interval(list(values)) == pytest.approx(0.5 * (high - low), rel=1e-12)
+    assert t_interval([5.0]) == 0.0
+
+
+def test_the_figure_names_arms_visits_and_the_outcome(here):
+    tree = ET.fromstring(contents(here.path)[OUTCOME])
+    words = {"".join(one.itertext()).strip() for one in tree.iter() if one.tag.endswith("text")}
+    assert {"guided", "unguided", "pre", "post", "score_total [points]"} <= words
+
+
+def test_figures_are_the_same_bytes_each_time(here):
+    files = contents(here.path)
+    plain = {name: data for name, data in files.items() if name.endswith((".csv", ".yaml"))}
+    first = bundle_figures(plain)
+    assert first == bundle_figures(plain)
+    assert first[OUTCOME] == files[OUTCOME]
