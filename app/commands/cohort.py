@@ -9,6 +9,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.reader_language import template
+from app.commands.record_options import RecordsFolder
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 
@@ -39,7 +40,6 @@ Price = Annotated[
 Attempts = Annotated[
     float, typer.Option("--attempts", min=1.0, help="What so many attempts would cost.")
 ]
-FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
 def register(root: typer.Typer) -> None:
@@ -61,7 +61,7 @@ def rescore(
             help="Attempts of this one, by its bands; a name or a file.",
         ),
     ] = "",
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
     scheduler: Scheduler = "",
     local: Local = None,
     attempts: Attempts = 1e6,

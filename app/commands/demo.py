@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from app.commands import completion
+from app.commands import completion, link_options
 from app.commands.reader_language import language, local, tell
 from app.core import plugin_folders
 from app.core.errors import AcusError
@@ -30,6 +30,7 @@ from app.core.messages import sentence
 from app.scoring.unit_words import unit_words
 
 if TYPE_CHECKING:
+    from app.compose.watchers import RunWatcher
     from app.exercises.schema import Exercise
     from app.session.result import AttemptResult
     from app.views.shell.demonstration import DemonstrationScript, MakesLeader
@@ -118,6 +119,12 @@ def demo(
             help=" ".join(f"{one}: {said.get('help', '')}" for one, said in _OTHERS.items())
         ),
     ] = _DEVICE,
+    igtl: link_options.Igtl = None,
+    rosbridge: link_options.Rosbridge = None,
+    foxglove: link_options.Foxglove = None,
+    links_host: link_options.Host = None,
+    links_token: link_options.Token = None,
+    links_allow: link_options.Allow = None,
 ) -> None:
     """Show a whole exercise, from the plan to the debrief.
 
@@ -137,7 +144,20 @@ def demo(
     if other is not None and hidden and folder is not None:
         _show_alone(other, seed, folder)
     leader = None if other is None else other.leader
-    _show(ct, shown, hidden, folder, seed, skill, cameras, pen, leader)
+    asked = link_options.given(
+        igtl=igtl,
+        rosbridge=rosbridge,
+        foxglove=foxglove,
+        links_host=links_host,
+        links_token=links_token,
+        links_allow=links_allow,
+    )
+    watchers = link_options.opened(asked)
+    try:
+        _show(ct, shown, hidden, folder, seed, skill, cameras, pen, leader, watchers)
+    finally:
+        for watcher in watchers:
+            watcher.close()
 
 
 def _demonstration(name: str) -> ModuleType:
@@ -166,6 +186,7 @@ def _show(
     cameras: str,
     pen: bool,
     leader: MakesLeader | None = None,
+    watchers: tuple[RunWatcher, ...] = (),
 ) -> None:
     from app.commands.session import tell_folder
     from app.compose import needle_sources
@@ -189,7 +210,7 @@ def _show(
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     trainee = skill.value if leader is None else None
-    window = open_window(Desktop(trainee, seed, sessions, (shown,), led=leader is not None))
+    window = open_window(Desktop(trainee, seed, sessions, (shown,), leader is not None, watchers))
     if pen:
         window.equipment.take_pen("simulated")
     else:

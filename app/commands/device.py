@@ -40,6 +40,7 @@ def register(app: typer.Typer) -> None:
     group.command("list")(list_ports)
     group.command("show")(show)
     group.command("test")(measure)
+    group.command("conform")(conform_)
     group.command("calibrate")(calibrate)
     group.command("emulate")(emulate)
     app.add_typer(group, name="device")
@@ -73,10 +74,17 @@ def list_ports() -> Answer:
     return Answer({"ports": rows, "profiles": profiles}, shown=shown)
 
 
+def _check_there(port: str) -> None:
+    from app.device.links.port import check_there
+
+    check_there(port)
+
+
 def show(port: Port, profile: Profile = "icube") -> Answer:
     """Ask the robot on a port who it is."""
     from dataclasses import asdict
 
+    _check_there(port)
     from app.device.links.serial_link import SerialLink
     from app.mechanisms.profile import load_profile
 
@@ -100,14 +108,54 @@ def measure(
 ) -> Answer:
     """Measure the link. Zero torques at the profile's rate: round trip, losses, errors.
 
-    Ends with 3 if more than 1 % of the commands, or as many as 20 ms have, were never answered.
+    Ends with 3 unless each command was answered.
     """
+    _check_there(port)
     from app.device.link_test import measure_link
     from app.mechanisms.profile import load_profile
 
     result = measure_link(port, load_profile(profile), seconds)
     lines = [f"{label:<24} {value}" for label, value in result.lines()]
     return Answer(result.document(), lines, yes=result.good)
+
+
+def conform_(
+    port: Port,
+    profile: Profile = "icube",
+    push: Annotated[
+        bool, typer.Option("--push", help="Give torques, up to the largest: the arms move.")
+    ] = False,
+    turn: Annotated[
+        bool, typer.Option("--turn", help="Wait until both links are turned by hand.")
+    ] = False,
+    restart: Annotated[
+        bool, typer.Option("--restart", help="Wait until the board is switched off and on.")
+    ] = False,
+    out: Annotated[Path | None, typer.Option("--out", help="Text file for the report.")] = None,
+) -> Answer:
+    """Test a board against the protocol, rule by rule.
+
+    Zero torques unless --push is given. The board is homed anew where it stands. Ends with 3 if
+    it breaks a rule (docs/firmware.md).
+    """
+    _check_there(port)
+    from datetime import datetime
+
+    from app.core.files import write_atomically
+    from app.device.conformance.suite import conform
+    from app.mechanisms.profile import load_profile
+
+    result = conform(
+        port,
+        load_profile(profile),
+        push,
+        turn,
+        restart,
+        lambda line: typer.echo(line, err=wants_json()),
+    )
+    if out is not None:
+        write_atomically(out, result.report(datetime.now()))
+    return Answer(result.document(), result.lines(), yes=result.good)
 
 
 class StepName(StrEnum):
@@ -144,6 +192,7 @@ def calibrate(
 
     Results are kept for the device by its serial number. Ctrl-C ends at zero torque at any time.
     """
+    _check_there(port)
     from app.commands.answers import Answers, numbers
     from app.device.commissioning.bench import Bench
     from app.device.commissioning.results import RoutineName

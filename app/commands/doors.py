@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from app.session.summary import Summary
 
 PASSWORD = "ACUS_INSTRUCTOR_PASSWORD"
+PASSPHRASE = "ACUS_BACKUP_PASSPHRASE"
 
 
 def instructor(people: "People | None" = None) -> None:
@@ -62,6 +63,12 @@ def secret(question: str, confirm: bool = False) -> str:
             local(question), hide_input=hidden, confirmation_prompt=confirm, err=True
         )
     return str(answer)
+
+
+def passphrase(confirm: bool = False) -> str:
+    """Return the passphrase of encrypted backups: of its variable, or asked for."""
+    given = os.environ.get(PASSPHRASE)
+    return secret(sentence("Passphrase of the backups"), confirm) if given is None else given
 
 
 def visitor() -> "Visitor":

@@ -1,7 +1,6 @@
 """`acus exercise bands`: what counts as good with mouse, tablet or gamepad, from people's runs."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -10,6 +9,7 @@ from app.commands import completion
 from app.commands.answer import Answer
 from app.commands.doors import instructor
 from app.commands.reader_language import template
+from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
@@ -35,7 +35,6 @@ Others = Annotated[
 Hand = Annotated[HandName, typer.Option("--hand", help="What moved the needle.")]
 NewTitle = Annotated[str, typer.Option("--title", help="Keep it as a new exercise of this title.")]
 Save = Annotated[bool, typer.Option("--save", help="Keep it as a new version.")]
-Records = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
 def bands(
@@ -47,7 +46,7 @@ def bands(
     hand: Hand = HandName.MOUSE,
     title: NewTitle = "",
     save: Save = False,
-    folder: Records = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Fit bands to experienced people (instructor). Printed; kept if asked."""
     from app.exercises.library import load_exercise

@@ -1,5 +1,6 @@
 """`acus exercise mark`: the pass mark as people set it, with its standard error."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,13 +13,13 @@ from app.commands.exercise_bands import (
     Name,
     NewTitle,
     Others,
-    Records,
     Save,
     kept_as,
     refuse_both,
     two_groups,
 )
 from app.commands.reader_language import template
+from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each, Shown
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from app.session.index import Indexed
     from app.session.people import Person, Remarks
 
-Attempts = tuple["list[Person]", "list[Indexed]", "dict[str, Remarks]"]
+Attempts = tuple["list[Person]", Sequence["Indexed"], "dict[str, Remarks]"]
 """Everybody, all attempts, and what was said of them."""
 
 
@@ -50,7 +51,7 @@ def mark(
     hand: Hand = HandName.MOUSE,
     title: NewTitle = "",
     save: Save = False,
-    folder: Records = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Set the pass mark by people (instructor). Printed; kept if asked.
 

@@ -9,6 +9,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor, secret
 from app.commands.reader_language import local, template
+from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each
 from app.core.messages import counted, joined, listed, sentence
 
@@ -19,7 +20,6 @@ Pseudonym = Annotated[
 CourseId = Annotated[
     str, typer.Argument(metavar="COURSE", help="Its id.", autocompletion=completion.courses)
 ]
-FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
 RANK = 100
@@ -134,7 +134,7 @@ def erase(
     records: Annotated[
         bool, typer.Option("--records/--keep-records", help="Delete the records, or keep them.")
     ],
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Erase a person for good (instructor): it cannot be undone.
 
@@ -207,7 +207,7 @@ def remark(
         str | None,
         typer.Option("--admit", help="Why an attempt that is not signed here counts all the same."),
     ] = None,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Comment an attempt, void, release or admit it (instructor)."""
     from app.session.admission import admissions

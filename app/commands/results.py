@@ -5,12 +5,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands import completion
+from app.commands import completion, results_lrs
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
 from app.commands.reader_language import local, template
-from app.commands.results_reliability import board_at, reliability
+from app.commands.record_options import RecordsFolder
+from app.commands.results_reliability import board_at, reliability, results_at
 from app.commands.shown import Each
 from app.core.messages import Sentence, counted, joined, sentence
 
@@ -30,25 +31,24 @@ GroupOption = Annotated[str, typer.Option("--group", help="Only students of this
 PDF = "pdf"
 """Form of `results export` beside those of `exchange.results`: Qt draws it."""
 
-FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
-
 
 RANK = 110
 
 
 def register(app: typer.Typer) -> None:
-    """Add `results board`, `curve`, `reliability`, `export` and `xapi`."""
+    """Add `results board`, `curve`, `reliability`, `export`, `xapi`, `lrs` and `send`."""
     results = Commands(help="Results of students and groups.")
     results.command("board")(board)
     results.command("curve")(curve)
     results.command("reliability")(reliability)
     results.command("export")(export)
     results.command("xapi")(xapi)
+    results_lrs.add_to(results)
     app.add_typer(results, name="results")
 
 
 def board(
-    course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
+    course: CourseOption = "", group: GroupOption = "", folder: RecordsFolder = None
 ) -> Answer:
     """Show best, last, trend, time since, competence (instructor).
 
@@ -70,7 +70,7 @@ def curve(
     pseudonym: Pseudonym,
     exercise: Annotated[str, typer.Argument(metavar="EXERCISE", help="Its id.")],
     course: CourseOption = "",
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Show a student's points, median, competence (instructor)."""
     from app.exchange.results import competence_document
@@ -130,7 +130,7 @@ def export(
         bool, typer.Option("--feedback", help="moodle: a column of feedback too.")
     ] = False,
     place: Annotated[str, typer.Option("--place", help="pdf: where the course was.")] = "",
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Write results as table, grades, JSON or report (instructor).
 
@@ -142,6 +142,7 @@ def export(
     from app.exchange.moodle import GradeRule, MoodleChoice, chance_words
     from app.exchange.results import ResultsFormat, results_text, write_results
     from app.session.accounts import Account
+    from app.session.people import People
 
     forms = [*(one.value for one in ResultsFormat), PDF]
     if form not in forms:
@@ -164,7 +165,7 @@ def export(
         )
     rule = GradeRule.of(grade or "best")
     instructor()
-    results = _results(course, group, folder, names)
+    results = results_at(course, group, folder, names)
     chance = ""
     if form == PDF:
         _write_report(results, out, student, course, group, rule, place)
@@ -178,7 +179,11 @@ def export(
     shown_counts = template(
         "{attempts:#1 attempt|# attempts} of {students:#1 student|# students} written to {files}"
     )
-    counts = {"attempts": len(results.attempts), "students": len(results.board.students)}
+    attempts, students = results.attempts, len(results.board.students)
+    if student:
+        key = People().find(student).key
+        attempts, students = [one for one in attempts if one.student == key], 1
+    counts = {"attempts": len(attempts), "students": students}
     facts = {"files": [out], **counts, "chance": chance}
     return Answer(facts, [chance] if chance else [], shown=shown_counts)
 
@@ -196,7 +201,7 @@ def xapi(
     ] = False,
     course: CourseOption = "",
     group: GroupOption = "",
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Write attempts as xAPI statements (instructor).
 
@@ -219,7 +224,7 @@ def xapi(
     if out is None and not queue:
         raise typer.BadParameter(sentence("nothing to do: give --out FILE, --queue, or both"))
     instructor()
-    results = _results(course, group, folder, names=False)
+    results = results_at(course, group, folder, names=False)
     told = with_progress(lambda progress: statements(results, home, course, progress))
     if out is not None:
         write_results(out, statements_text(told, out.suffix.lower() == ".json"))
@@ -240,27 +245,6 @@ def xapi(
     return Answer(facts, shown=shown)
 
 
-def _results(course: str, group: str, folder: Path | None, names: bool) -> "Results":
-    """Return the results of a course and a group, as they leave."""
-    from app.commands.reader_language import known as in_words
-    from app.exchange.results import Results
-    from app.exercises.library import library
-    from app.session.accounts import accounts_in
-
-    found, attempts, people = board_at(course, group, folder)
-    known = {person.key: person for person in people.everybody(names)}
-    if course or group:
-        shown = {person.key for person in found.students}
-        attempts = [a for a in attempts if a.student in shown]
-    if course:
-        exercises = {item.exercise for item in found.items}
-        attempts = [one for one in attempts if one.exercise in exercises]
-    listed = {key: person.name for key, person in known.items()} if names else {}
-    titles = {exercise.id: in_words(exercise.title) for exercise in library()}
-    told = (people.remarks(), listed, accounts_in(people.names()), titles)
-    return Results(found, attempts, known, *told)
-
-
 def _write_report(
     results: "Results",
     out: Path,
@@ -275,7 +259,8 @@ def _write_report(
     from app.session.course import find_course
     from app.session.people import People
     from app.session.stations import NAME_SETTING
-    from app.views.people.group_report import ReportFacts, group_report
+    from app.views.people.group_report import group_report
+    from app.views.people.report_facts import ReportFacts
     from app.views.people.results_report import student_report, write_report
 
     people, titles = People(), results.titles
@@ -288,7 +273,7 @@ def _write_report(
             lambda: (
                 group_report(results, titles, facts, progress)
                 if person is None
-                else student_report(results, person, titles)
+                else student_report(results, person, titles, facts)
             ),
         )
     )

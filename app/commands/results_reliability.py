@@ -1,5 +1,6 @@
 """`acus results reliability`: how far the scores of a course can be relied on."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,9 +10,11 @@ from app.commands import completion
 from app.commands.answer import Answer
 from app.commands.doors import instructor
 from app.commands.reader_language import template
+from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each, Shown
 
 if TYPE_CHECKING:
+    from app.exchange.results import Results
     from app.session.board import ProgressBoard
     from app.session.index import Indexed
     from app.session.people import People
@@ -42,7 +45,7 @@ def reliability(
     last: Annotated[
         int, typer.Option("--last", min=1, help="So many newest attempts of each.")
     ] = 5,
-    folder: Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")] = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Show how far scores can be relied on (instructor).
 
@@ -59,7 +62,7 @@ def reliability(
 
 def board_at(
     course: str, group: str, folder: Path | None
-) -> tuple["ProgressBoard", list["Indexed"], "People"]:
+) -> tuple["ProgressBoard", Sequence["Indexed"], "People"]:
     """Return board, attempts and people, as the instructor sees them."""
     from app.commands.calibrate_parts import with_progress
     from app.session.board import board_of
@@ -73,6 +76,27 @@ def board_at(
         lambda progress: board_of(place, people, chosen, group, progress=progress)
     )
     return found, attempts, people
+
+
+def results_at(course: str, group: str, folder: Path | None, names: bool) -> "Results":
+    """Return the results of a course and a group, as they leave."""
+    from app.commands.reader_language import known as in_words
+    from app.exchange.results import Results
+    from app.exercises.library import library
+    from app.session.accounts import accounts_in
+
+    found, attempts, people = board_at(course, group, folder)
+    known = {person.key: person for person in people.everybody(names)}
+    if course or group:
+        shown = {person.key for person in found.students}
+        attempts = [a for a in attempts if a.student in shown]
+    if course:
+        exercises = {item.exercise for item in found.items}
+        attempts = [one for one in attempts if one.exercise in exercises]
+    listed = {key: person.name for key, person in known.items()} if names else {}
+    titles = {exercise.id: in_words(exercise.title) for exercise in library()}
+    told = (people.remarks(), listed, accounts_in(people.names()), titles)
+    return Results(found, attempts, known, *told)
 
 
 def _facts(result: "CourseReliability", course: str, last: int) -> dict[str, Any]:

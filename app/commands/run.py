@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from app.commands import completion
+from app.commands import completion, link_options
 from app.core.messages import sentence
 
 RANK = 10
@@ -40,9 +40,15 @@ def run(
         str | None,
         typer.Option(
             help="No robot: a webcam that sees a pen with printed markers, usb:0, folder:PATH, "
-            "video:PATH or simulated (docs/pen.md)."
+            "video:PATH or simulated (docs/pen.md); or igtl:HOST, a tracked needle (docs/links.md)."
         ),
     ] = None,
+    igtl: link_options.Igtl = None,
+    rosbridge: link_options.Rosbridge = None,
+    foxglove: link_options.Foxglove = None,
+    links_host: link_options.Host = None,
+    links_token: link_options.Token = None,
+    links_allow: link_options.Allow = None,
 ) -> None:
     """Open the trainer. The mouse moves a simulated hand, or a real robot its own needle."""
     _check(ct, device, exercise)
@@ -50,19 +56,26 @@ def run(
     from app.compose import needle_sources
     from app.compose.desktop import Desktop
     from app.tracking.cameras.settings import parse_cameras
-    from app.tracking.cameras.source import parse_source
     from app.views.shell.application import start
     from app.views.shell.language import Rebuilding
     from app.views.shell.remembered import show_as_remembered
     from app.views.shell.window import open_window
 
     if pen is not None:
-        needle_sources.KIND.find("pen")
-        parse_source(pen)
+        needle_sources.check(pen)
     chosen = None if cameras is None else parse_cameras(cameras)
+    asked = link_options.given(
+        igtl=igtl,
+        rosbridge=rosbridge,
+        foxglove=foxglove,
+        links_host=links_host,
+        links_token=links_token,
+        links_allow=links_allow,
+    )
+    watchers = link_options.opened(asked)
     tell_folder()
     application = start()
-    services = Desktop()
+    services = Desktop(watchers=watchers)
 
     def make() -> Any:
         """Return a window with what the command line asks for: another language keeps it."""
@@ -84,6 +97,8 @@ def run(
         window.open_ct.open_folder(ct)
     code = application.exec()
     rebuilding.close()
+    for watcher in watchers:
+        watcher.close()
     raise typer.Exit(code)
 
 

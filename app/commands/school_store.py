@@ -1,6 +1,5 @@
 """`acus store connect`, `sync`: the store that the stations of a school share."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -8,10 +7,9 @@ import typer
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.reader_language import template
+from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each
 from app.core.messages import counted, joined, sentence
-
-FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
 def add_to(store: Commands) -> None:
@@ -27,6 +25,10 @@ def connect(
     objects: Annotated[
         str, typer.Option("--objects", metavar="URL", help="Keep the files there (fsspec).")
     ] = "",
+    options: Annotated[
+        list[str] | None,
+        typer.Option("--objects-option", metavar="NAME=VALUE", help="Of that place; repeatable."),
+    ] = None,
     gives: Annotated[
         bool, typer.Option("--gives-course", help="People and courses of this station go there.")
     ] = False,
@@ -52,7 +54,8 @@ def connect(
         put_place(None, people.folder)
     elif url:
         require_password(people)
-        place = StorePlace(url, objects, {}, gives, pins, names)
+        said = dict(one.partition("=")[::2] for one in options or ())
+        place = StorePlace(url, objects, said, gives, pins, names)
         with closing(place.store()) as store:
             store.open()
         put_place(place, people.folder)
@@ -84,7 +87,7 @@ def sync(
     trust: Annotated[
         bool, typer.Option("--trust", help="Let stations in that are not known here.")
     ] = False,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Exchange what is new with the school's store (instructor).
 

@@ -9,10 +9,9 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.reader_language import template
+from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each
 from app.core.messages import counted, joined, sentence, sentence_of
-
-FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
 def add_to(store: Commands) -> None:
@@ -109,7 +108,7 @@ def results(
         str,
         typer.Option("--course", help="Only of its exercises.", autocompletion=completion.courses),
     ] = "",
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Write this station's results for others (instructor).
 
@@ -147,7 +146,7 @@ def station(
     out: Annotated[Path, typer.Option("--out", help="File to write.")],
     names: Annotated[bool, typer.Option("--names", help="Names too.")] = False,
     pins: Annotated[bool, typer.Option("--pins", help="Hashes of the PINs too.")] = False,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Write the course for another station (instructor).
 
@@ -180,7 +179,7 @@ def gather(
         bool, typer.Option("--trust", help="Let stations in that are not known here.")
     ] = False,
     names: Annotated[bool, typer.Option("--names", help="Names of students too.")] = False,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Take in what other stations wrote (instructor).
 

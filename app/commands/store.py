@@ -1,19 +1,17 @@
 """`acus store`: the folder of records and its index."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.reader_language import local, template
+from app.commands.record_options import RecordsFolder
 from app.commands.school_store import add_to as add_school_store
 from app.commands.shown import Each
 from app.commands.stations import add_to
 from app.core.messages import sentence
-
-FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
-
 
 RANK = 90
 
@@ -32,7 +30,7 @@ def register(app: typer.Typer) -> None:
     app.add_typer(store, name="store")
 
 
-def status(folder: FolderOption = None) -> Answer:
+def status(folder: RecordsFolder = None) -> Answer:
     """Say how many attempts there are and what is signed.
 
     Brings the index up to date first. *verified*: written by this station and unchanged; it does
@@ -73,7 +71,7 @@ def status(folder: FolderOption = None) -> Answer:
     return Answer(facts, lines, shown=shown)
 
 
-def rebuild(folder: FolderOption = None) -> Answer:
+def rebuild(folder: RecordsFolder = None) -> Answer:
     """Make the index anew from the records."""
     from app.commands.calibrate_parts import with_progress
     from app.session.index import Index
@@ -89,9 +87,12 @@ def rebuild(folder: FolderOption = None) -> Answer:
 
 def check(
     backup: Annotated[
-        Path | None, typer.Argument(metavar="[BACKUP]", help="A backup; else what is here.")
+        Path | None,
+        typer.Argument(
+            metavar="[BACKUP]", help="A backup, or a folder of them; else what is here."
+        ),
     ] = None,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Read what is here, or a backup, for damage (instructor).
 
@@ -99,11 +100,12 @@ def check(
 
     Every record is read whole and held against its signature, the list of people and the audit
     trail are looked through, every file of a backup is held against its list. Nothing is changed.
-    Ends with code 3 if something is wrong.
+    Ends with code 3 if something is wrong. Of a folder of backups the newest is read.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.commands.doors import instructor
+    from app.commands.doors import instructor, passphrase
     from app.session.archive import check_backup, check_store
+    from app.session.backup_folder import is_encrypted
     from app.session.people import People
     from app.session.store import records_folder
 
@@ -111,7 +113,8 @@ def check(
     instructor(people)
     if backup is not None:
         source = backup
-        done = with_progress(lambda progress: check_backup(source, progress))
+        secret = passphrase() if is_encrypted(source) else ""
+        done = with_progress(lambda progress: check_backup(source, progress, secret))
     else:
         place = records_folder(folder)
         done = with_progress(lambda progress: check_store(place, people, progress))
@@ -128,24 +131,56 @@ def check(
 
 
 def backup(
-    out: Annotated[Path, typer.Option("--out", help="File to write.")],
-    folder: FolderOption = None,
+    out: Annotated[Path | None, typer.Option("--out", help="File to write.")] = None,
+    into: Annotated[
+        Path | None, typer.Option("--into", help="Folder of backups to add one to.")
+    ] = None,
+    encrypt: Annotated[
+        bool, typer.Option("--encrypt", help="Encrypt it; asks for a passphrase (--into).")
+    ] = False,
+    with_cts: Annotated[
+        bool, typer.Option("--with-cts", help="The CTs of own exercises too (--into).")
+    ] = False,
+    folder: RecordsFolder = None,
 ) -> Answer:
-    """Write everything into one file (instructor).
+    """Write everything into a file or a folder (instructor).
 
-    It holds names, and is readable by you only. The station's key is in it only where an
-    instructor's password is set, encrypted by the recovery key that was printed then.
+    It holds names, and is readable by you only. Into a folder, what is there already from an
+    earlier backup is not written again. The station's key is in it only where an instructor's
+    password is set, encrypted by the recovery key that was printed then.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.commands.doors import instructor
+    from app.commands.doors import instructor, passphrase
     from app.session import archive
+    from app.session.backup_folder import backups_of
+    from app.session.errors import SessionError
     from app.session.people import People
     from app.session.station import opens
     from app.session.store import records_folder
 
+    if (out is None) == (into is None) or (into is None and (encrypt or with_cts)):
+        raise SessionError(
+            sentence("give --out FILE or --into FOLDER; --encrypt and --with-cts need --into")
+        )
     people, place = People(), records_folder(folder)
     instructor(people)
-    count = with_progress(lambda progress: archive.backup(out, place, people, progress))
+    facts: dict[str, Any] = {}
+    if into is not None:
+        room = into
+        secret = passphrase(confirm=not backups_of(room)) if encrypt else ""
+        saved = with_progress(
+            lambda progress: archive.backup_into(room, place, people, progress, secret, with_cts)
+        )
+        facts = {"files": [saved.path], "records": saved.records, "new_mb": saved.new / 1e6}
+        left = list(saved.left_out)
+        written = template(
+            "{records:#1 record|# records} written to {files}, {new_mb:.1f} MB were new"
+        )
+    elif out is not None:
+        file = out
+        count = with_progress(lambda progress: archive.backup(file, place, people, progress))
+        facts, left = {"files": [out], "records": count}, archive.left_out()
+        written = template("{records:#1 record|# records} written to {files}")
     wrapped = people.wrapped_key()
     key = bool(wrapped) and opens(wrapped)
     lines = []
@@ -164,14 +199,15 @@ def backup(
                 "records are to be verified on another computer"
             )
         )
-    facts = {"files": [out], "records": count, "key": key, "left_out": archive.left_out()}
-    written = template("{records:#1 record|# records} written to {files}")
+    facts |= {"key": key, "left_out": left}
     return Answer(facts, lines, shown=(written, Each("left_out", template("not in it: {}"))))
 
 
 def restore(
-    source: Annotated[Path, typer.Argument(metavar="FILE", help="A backup.")],
-    folder: FolderOption = None,
+    source: Annotated[
+        Path, typer.Argument(metavar="BACKUP", help="A backup, or a folder of them: the newest.")
+    ],
+    folder: RecordsFolder = None,
     key: Annotated[
         bool, typer.Option("--key", help="The station's key too; asks for the recovery key.")
     ] = False,
@@ -185,17 +221,19 @@ def restore(
     who was erased. Says what of it is not taken, and ends with code 3 if anything is not.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.commands.doors import instructor
+    from app.commands.doors import instructor, passphrase
     from app.session import archive
+    from app.session.backup_folder import is_encrypted
     from app.session.people import People
     from app.session.store import records_folder
 
     people, place = People(), records_folder(folder)
     instructor(people)
     recovery = typer.prompt(local(sentence("Recovery key")), err=True) if key else ""
+    secret = passphrase() if is_encrypted(source) else ""
     done = with_progress(
         lambda progress: archive.restore_backup(
-            source, place, recovery, people_too, people, progress
+            source, place, recovery, people_too, people, progress, secret
         )
     )
     facts = {
@@ -205,6 +243,7 @@ def restore(
         "erased": done.erased,
         "people": done.people,
         "key": done.key,
+        "cts": list(done.cts),
         "not_taken": list(done.not_taken),
     }
     shown = (
@@ -212,6 +251,7 @@ def restore(
         "people: {people}; station's key: {key}",
         Each("different", template("✖ {} is another record here: the one here was kept")),
         template("{erased} records left out: their person was erased") if done.erased else "",
+        Each("cts", template("a CT lies in {}: move it to where its exercise names it")),
         Each("not_taken", template("✖ not taken: {}")),
     )
     return Answer(facts, yes=not done.different and not done.not_taken, shown=shown)
@@ -219,7 +259,7 @@ def restore(
 
 def empty(
     days: Annotated[float, typer.Option("--days", min=30.0, help="At least 30.")] = 30.0,
-    folder: FolderOption = None,
+    folder: RecordsFolder = None,
 ) -> Answer:
     """Delete what was deleted 30 days ago for good (instructor)."""
     from app.commands.doors import instructor

@@ -1,6 +1,8 @@
 """`acus device calibrate`: typed and prepared answers, and what cannot be used."""
 
 import io
+import subprocess
+import sys
 import time
 
 import pytest
@@ -70,6 +72,16 @@ def test_prepared_readings_come_in_order_and_a_missing_one_is_named():
 def test_a_port_that_is_not_there_is_told(tmp_path):
     result = CliRunner().invoke(build(), ["device", "calibrate", str(tmp_path / "none"), "--yes"])
     assert isinstance(result.exception, LinkError)
+
+
+@pytest.mark.parametrize("command", ["show", "test", "conform", "calibrate"])
+def test_a_port_that_is_not_there_is_told_before_anything_is_compiled(command):
+    """Compiled code of a new installation takes minutes: numba is not even imported."""
+    program = [sys.executable, "-X", "importtime", "-m", "app", "device", command, "/dev/no-board"]
+    ended = subprocess.run(program, capture_output=True, text=True, timeout=60, check=False)
+    assert ended.returncode == 2
+    assert "there is no port /dev/no-board" in ended.stderr
+    assert "numba" not in ended.stderr
 
 
 def test_a_sign_check_that_fails_is_told_with_what_counts_no_more(tmp_path):

@@ -272,6 +272,8 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("results", "reliability"),
         ("results", "export", "tidy", "--out", out),
         ("results", "xapi", "--home", "https://x.example", "--out", out),
+        ("results", "lrs", "https://lrs.example/xAPI", "--home", "https://x.example"),
+        ("results", "send"),
         ("exercise", "new", "Mine", "--out", out),
         ("exercise", "pack", "first-insertion", "--out", out),
         ("exercise", "unpack", out),

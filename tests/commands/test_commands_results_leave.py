@@ -3,15 +3,19 @@
 import json
 import sys
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 from types import MappingProxyType
 
 import pytest
+
+sys.path.append(str(Path(__file__).parents[1] / "exchange"))
+from lrs_server import ScriptedLrs, answer
 
 from app.__main__ import main
 from app.core.paths import sessions
 from app.scoring.conditions import Conditions
 from app.session.course import Course, CourseItem
-from app.session.people import People
+from app.session.people import People, people_folder
 from app.session.sidecar import file_digest, write_summary
 from app.session.signature import signature_file, signed
 from app.session.station import StationKey
@@ -113,6 +117,36 @@ def test_statements_are_written_twice_alike_and_queued_once(acus, group, tmp_pat
     assert acus(*words, "--queue")["waiting"] == 5
     assert "own, such as" in acus("results", "xapi", "--home", "x", "--queue", code=2)
     assert "nothing to do" in acus(*words, code=2)
+
+
+def test_statements_reach_a_record_store_whose_password_is_shown_nowhere(
+    acus, group, capsys, monkeypatch
+):
+    monkeypatch.setenv("ACUS_LRS_PASSWORD", "correct horse")
+    assert "tells no record store" in acus("results", "send", code=2)
+    with ScriptedLrs(answer(401)) as server:
+        words = ("results", "lrs", server.url, "--home", HOME, "--user", "acus")
+        assert "give --home" in acus(*words[:3], code=2)
+        assert "give name and password again" in acus(*words, code=2)
+        assert acus("results", "lrs")["lrs"] is None
+        assert acus(*words) == {"lrs": server.url, "home": HOME, "user": "acus", "waiting": 0}
+        told = acus("results", "send")
+        assert told["new"] == told["sent"] == len(server.held) == 12
+        assert (told["waiting"], told["refused"]) == (0, [])
+        for path in (people_folder() / "statements").iterdir():
+            path.unlink()
+        server.held.clear()
+        server.script += [answer(400, b"no")] * 30
+        monkeypatch.setattr(sys, "argv", ["acus", "results", "send"])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        assert ended.value.code == 3
+        shown = capsys.readouterr()
+        assert "0 statements sent; 12 wait" in shown.out
+        assert "correct horse" not in shown.out + shown.err
+        assert acus("results", "lrs")["waiting"] == 12
+        assert acus("results", "lrs", "--forget")["lrs"] is None
+    assert not (people_folder() / "lrs.json").exists()
 
 
 def test_a_report_takes_a_rule_and_a_place(acus, group, tmp_path):

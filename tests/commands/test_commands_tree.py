@@ -24,7 +24,7 @@ NEEDS_MORE = {
     "ct digest", "ct import", "ct list", "ct path", "ct point",
     "device calibrate", "device show", "exercise bands", "exercise mark", "exercise pack",
     "exercise trial", "exercise unpack",
-    "device test", "pacs echo", "pacs find", "pacs get", "pacs move",
+    "device conform", "device test", "pacs echo", "pacs find", "pacs get", "pacs move", "pacs send",
     "pen calibrate", "registration check", "session compare", "session replay", "session show",
     "session verify", "structures distance", "structures export", "structures list",
     "transform export", "transform show", "urdf import", "camera test", "library remove",
@@ -32,8 +32,9 @@ NEEDS_MORE = {
     "people instructor", "people pin", "people remark", "people roster", "results curve",
     "research answer", "research begin", "research bundle", "research check", "research enrol",
     "research leave", "research lock", "research verify",
-    "results export", "results reliability", "results xapi", "session delete",
-    "session restore", "store gather", "store restore", "store revoke", "store sync",
+    "results export", "results lrs", "results reliability", "results send", "results xapi",
+    "session delete", "session restore", "store gather", "store restore", "store revoke",
+    "store sync",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
@@ -125,6 +126,7 @@ EXAMPLES = {
     "research power": ("--effect", "9", "--sd", "10", "--simulations", "100"),
     "research status": (),
     "results board": (),
+    "results lrs": (),
     "session export": ("--out", "all.csv"),
     "session list": (),
     "store audit": (),

@@ -198,7 +198,7 @@ def test_f5_while_robot_and_cameras_are_started_says_so_until_an_attempt_can_beg
         assert settle(lambda: window.conductor.runs._task is not None)
         settle(lambda: False, 0.3)
         press(window, Qt.Key.Key_F5)
-        assert "Robot and cameras are being started" in told(window)
+        assert settle(lambda: "Robot and cameras are being started" in told(window))
     finally:
         may_open.set()
     assert settle(lambda: start(window).isEnabled())

@@ -2,7 +2,7 @@
 
 import json
 import os
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from types import MappingProxyType
 
 import pytest
@@ -31,7 +31,7 @@ from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS, Known
 from app.views.people.feature import PeopleFeature
-from app.views.people.pages import GROUP_PDF, STUDENT_PDF, CourseDialog, EntryDialog
+from app.views.people.pages import GROUP_PDF, STUDENT_PDF, CourseDialog, EntryDialog, since_words
 
 
 @pytest.fixture
@@ -772,3 +772,17 @@ def test_another_pin_is_drawn_only_after_a_question(window, feature, settle):
     text = feature.dialog.findChild(QPlainTextEdit).toPlainText()
     assert people.sign_in("Ada", text.split()[-1]).pseudonym == "Ada"
     feature.dialog.done(0)
+
+
+@pytest.mark.parametrize(
+    ("minutes", "words"),
+    [
+        (1.5, "just now"),
+        (15.0, "15 min ago"),
+        (59.9, "59 min ago"),
+        (75.0, "1 h ago"),
+        (1500.0, "1 d ago"),
+    ],
+)
+def test_how_long_ago_an_attempt_was_is_told_in_the_unit_of_its_size(minutes, words):
+    assert since_words(timedelta(minutes=minutes)) == words

@@ -20,7 +20,8 @@ from app.session.course import CourseItem
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
 from app.views.people.competence_marks import competence_line
-from app.views.people.group_report import ReportFacts, group_report, in_order
+from app.views.people.group_report import group_report, in_order
+from app.views.people.report_facts import ReportFacts
 from app.views.people.report_pages import ReportPages
 from app.views.people.results_report import student_report
 
@@ -180,7 +181,7 @@ def test_a_report_of_a_group_tells_how_far_it_is_and_can_be_cancelled(drawn):
 def test_a_student_s_report_tells_curves_and_what_the_instructor_said(drawn):
     results = results_of(2, 3, 6)
     person = results.board.students[0]
-    data = student_report(results, person, {}, NOW)
+    data = student_report(results, person, {}, facts())
     words = "\n".join(one for page in drawn() for one in page)
     assert pages_of(data) == len(drawn())
     assert words.count("median of five") == 3
@@ -194,7 +195,7 @@ def test_reports_say_who_is_competent_since_when_and_with_which_error(drawn):
     """From the fourth attempt on each passes (61 points and more): the thirteenth is the tenth."""
     results = results_of(1, 1, 14)
     (person,) = results.board.students
-    student_report(results, person, {}, NOW)
+    student_report(results, person, {}, facts())
     words = "\n".join(one for page in drawn() for one in page)
     assert "competent after 12 attempts (false alarm ≤ 5 %)" in words  # one is void
     assert "Of those who are not, at most 5 % are called competent within 24 attempts" in words
@@ -226,7 +227,7 @@ def test_without_names_the_report_holds_pseudonyms_alone(drawn):
 def test_a_group_without_attempts_has_a_report_too(drawn):
     assert pages_of(group_report(results_of(0, 0, 0), {}, facts())) == 1
     empty = results_of(1, 2, 0)
-    assert pages_of(student_report(empty, empty.board.students[0], {}, NOW)) == 1
+    assert pages_of(student_report(empty, empty.board.students[0], {}, facts())) == 1
 
 
 def test_a_best_near_the_mark_is_marked_in_a_report_and_the_sign_is_explained(drawn):
@@ -251,3 +252,27 @@ def test_a_limit_of_the_course_stands_beside_what_competence_takes():
     assert limited.attempts_left(person.key, item.exercise) == 1
     assert "the course allows 1" in competence_line(limited, person.key, item.exercise)
     assert "allows" not in competence_line(results.board, person.key, item.exercise)
+
+
+def test_reports_say_which_points_pass_as_the_newest_attempt_was_judged(drawn, monkeypatch):
+    results = results_of(1, 2, 2)
+
+    def judged(attempt):
+        return 72.5 if attempt.id == "a0-1-1" else 60.0
+
+    monkeypatch.setattr(Indexed, "pass_mark", property(judged))
+    (person,) = results.board.students
+    group_report(results, {}, facts())
+    assert [word for page in drawn() for word in page].count("72.5") == 1
+    student_report(results, person, {}, facts())
+    assert [word for page in drawn() for word in page].count("72.5") == 2
+
+
+def test_a_student_s_report_names_course_venue_and_dates_and_can_be_signed(drawn):
+    results = results_of(1, 1, 3)
+    (person,) = results.board.students
+    student_report(results, person, {}, facts(place="Basel, Theatre 2"))
+    words = [word for page in drawn() for word in page]
+    for wanted in ("Autumn", "Basel, Theatre 2", "2026-10-01 to 2026-10-03", "Place, date"):
+        assert wanted in words, wanted
+    assert words.count("Instructor") == words.count("Student") == 1

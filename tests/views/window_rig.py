@@ -178,6 +178,8 @@ def _shipped():
 
 
 class FakeServices:
+    watchers = ()
+
     def __init__(self, folder):
         self.folder, self.opened, self.refuses = folder, [], ""
         self.prepared, self.missing, self.unusable = threading.Event(), "", ()

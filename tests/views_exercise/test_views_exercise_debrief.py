@@ -656,6 +656,19 @@ def test_where_a_drill_is_offered_nothing_else_is_said_to_come_next(page):
     assert page.proposal.isVisibleTo(page)
 
 
+def test_where_no_attempt_is_left_again_is_shut_and_says_why(page):
+    page.show_review(review(score=all_expert(score())))
+    why = "the course allows 3 attempts, and 3 were made"
+    page.show_proposal(Proposal("", "", ProposalReason.CLOSED, closed=why))
+    assert not page.retry.isEnabled()
+    assert page.retry.property("role") != "primary"
+    assert why in page.retry.toolTip()
+    page.show_proposal(Proposal("liver-01", "Liver", ProposalReason.AGAIN))
+    assert page.retry.isEnabled()
+    assert page.retry.property("role") == "primary"
+    assert not page.retry.toolTip()
+
+
 def test_the_metrics_are_folded_until_somebody_wants_them(page):
     page.show_review(review())
     assert not page.table.isVisibleTo(page)

@@ -63,7 +63,7 @@ from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.roles import Role
-from app.views.kit.text import date_text, declared, disclaimer, literal, number, tr
+from app.views.kit.text import date_text, declared, disclaimer, literal, number, tr, translated
 
 _ROW_HEIGHT = 24
 _COLUMNS = 5
@@ -390,7 +390,10 @@ class DebriefPage(QWidget):
                 title = title[: _AGAIN_LONGEST - 1].rstrip() + "…"
             self.next.setText(tr("Next: {title}", title=title))
             self.next.setToolTip(literal(words))
-        for button, primary in ((self.next, other), (self.retry, not other)):
+        closed = proposal.closed if proposal is not None else ""
+        self.retry.setEnabled(not closed)
+        self.retry.setToolTip(literal(translated(closed)))
+        for button, primary in ((self.next, other), (self.retry, not other and not closed)):
             button.setProperty("role", "primary" if primary and not drills else "")
             button.style().unpolish(button)
             button.style().polish(button)

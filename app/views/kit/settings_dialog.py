@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 
 from app.core.errors import AcusError
@@ -84,6 +85,22 @@ class SettingsDialog(QDialog):
         """Write the line below the form."""
         if verdict is not None:
             tell(self.note, verdict, text)
+        else:
+            self.note.setStyleSheet(f"color: {theme.TEXT};")
+            self.note.setText(text)
+        self._make_room()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Begin with room for what is said already."""
+        super().showEvent(event)
+        self._make_room()
+
+    def _make_room(self) -> None:
+        """Grow where lines that wrap need more height: else fields are laid over each other."""
+        layout = self.layout()
+        if layout is None:
             return
-        self.note.setStyleSheet(f"color: {theme.TEXT};")
-        self.note.setText(text)
+        layout.activate()
+        needed = layout.totalMinimumHeightForWidth(self.width())
+        if needed > self.height():
+            size_dialog(self, self.width(), needed)

@@ -88,6 +88,32 @@ def draw_changes(
         painter.drawText(top + QPointF(3.0, 9.0), MARKS[change.state])
 
 
+def draw_pass_mark(
+    painter: QPainter,
+    mark: float | None,
+    place: Callable[[int, float], QPointF],
+    across: tuple[float, float],
+    colour: str,
+) -> None:
+    """Draw the points that pass as a dotted line with its name; None draws nothing.
+
+    Args:
+        painter: of the plot.
+        mark: points.
+        place: of the attempt with that number (from 1) and of points, in the plot.
+        across: where the line begins and ends.
+        colour: of line and name.
+    """
+    if mark is None:
+        return
+    y = place(1, mark).y()
+    painter.setPen(QPen(QColor(colour), 1.0, Qt.PenStyle.DotLine))
+    painter.drawLine(QPointF(across[0], y), QPointF(across[1], y))
+    words = tr("{mark:g} to pass", mark=mark)
+    wide = painter.fontMetrics().horizontalAdvance(words)
+    painter.drawText(QPointF(across[1] - wide, y - 2.0), words)
+
+
 class CompetenceRates(QWidget):
     """Acceptable and unacceptable failure rate [%]; what else a rule says stays as it was.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar, TypeVar
@@ -42,17 +42,20 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
 from app.views.kit.roles import EVERYBODY, STAFF, Role
 from app.views.kit.text import declared, tr, tr_n, translated
-from app.views.people.group_report import ReportFacts, group_report
+from app.views.people.curve import CurveDialog
+from app.views.people.folder_backups import FolderBackups
+from app.views.people.group_report import group_report
 from app.views.people.leaving import LeavingChoice, LeavingDialog
+from app.views.people.lrs_link import LrsLink
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
     CourseDialog,
-    CurveDialog,
     EntryDialog,
     PeoplePage,
     text_dialog,
 )
+from app.views.people.report_facts import ReportFacts
 from app.views.people.restoring import BackupRestorer
 from app.views.people.results_report import student_report, write_report
 from app.views.people.school_link import SchoolLink
@@ -73,7 +76,7 @@ class Look:
     courses: list[Course]
     broken: list[str]
     board: ProgressBoard
-    attempts: list[Indexed]
+    attempts: Sequence[Indexed]
     standings: Mapping[str, list[CourseStanding]]
     waiting: Mapping[str, list[str]]
 
@@ -89,7 +92,9 @@ class PeopleFeature(Feature):
     Attributes:
         page: board, students and courses.
         restorer: of backups.
+        folder_backups: adds backups to a folder.
         link: to the store that the stations of a school share.
+        lrs: to the learning record store that is told of attempts.
         stations: results of several stations, written and brought together.
         dialog: the one that was opened last.
     """
@@ -126,19 +131,24 @@ class PeopleFeature(Feature):
             )[0]
         leave = add_entries(menu, ((tr("Sign out"), "", lambda: ACCESS.sign_in(None)),))[0]
         with self._shell.made_for(STAFF):
-            save, restore = add_entries(
+            *saves, restore = add_entries(
                 menu,
                 (
                     (tr("Back up everything…"), "", self.back_up),
+                    (tr("Back up into a folder…"), "", lambda: self.folder_backups.choose()),
                     (tr("Restore a backup…"), "", lambda: self.restorer.choose()),
                 ),
             )
-        self._actions = show, student, instructor, leave, save, restore
+        self._actions = show, student, instructor, leave, *saves, restore
         self.restorer = BackupRestorer(self._doors())
+        self.folder_backups = FolderBackups(self._doors())
         controller = context.conductor.controller
         self.link = SchoolLink(self._doors(), lambda: controller.is_running, self)
         self.link.told.connect(self.page.board.show_store)
-        self.stations = StationExchange(self.page.board.stations, self._doors(), self.link)
+        self.lrs = LrsLink(self._doors(), self._titles, lambda: controller.is_running, self)
+        self.lrs.told.connect(self.page.board.show_lrs)
+        links = self.link, self.lrs
+        self.stations = StationExchange(self.page.board.stations, self._doors(), *links)
         self._connect()
         ACCESS.changed.connect(self._follow)
         self._follow()
@@ -159,6 +169,7 @@ class PeopleFeature(Feature):
     def close(self) -> None:
         """End what runs, and the dialog that is open; nobody stays signed in."""
         self.link.close()
+        self.lrs.close()
         for task in tuple(self._running):
             task.close()
         if self.dialog is not None:
@@ -575,7 +586,7 @@ class PeopleFeature(Feature):
             if form == GROUP_PDF:  # on pages of its own: Qt allows that beside the window
                 write_report(path, lambda: group_report(results, titles, facts, progress))
             elif form == STUDENT_PDF and chosen is not None:
-                write_report(path, lambda: student_report(results, chosen, titles))
+                write_report(path, lambda: student_report(results, chosen, titles, facts))
             else:
                 told = (ResultsFormat(form), semicolons, progress, choice.gradebook, translated)
                 text = results_text(results, *told)
@@ -656,7 +667,7 @@ class PeopleFeature(Feature):
 
     def _follow(self) -> None:
         """Show what who is here may do."""
-        show, student, instructor, leave, save, restore = self._actions
+        show, student, instructor, leave, *saves, restore = self._actions
         here = ACCESS.student is not None or ACCESS.instructor
         show.setEnabled(ACCESS.may_manage or ACCESS.student is not None)
         show.setText(
@@ -671,8 +682,8 @@ class PeopleFeature(Feature):
         leave.setVisible(here or not alone)
         instructor.setEnabled(not ACCESS.instructor)
         leave.setEnabled(here)
-        save.setEnabled(ACCESS.may_manage)
-        restore.setEnabled(ACCESS.may_manage)
+        for action in (*saves, restore):
+            action.setEnabled(ACCESS.may_manage)
         self.page.set_managing(ACCESS.may_manage)
         self.stations.set_managing(ACCESS.may_manage)
         if not show.isEnabled() and self.page.isVisible():
@@ -683,6 +694,7 @@ class PeopleFeature(Feature):
     def _ended(self) -> None:
         """Look again: what may be begun next has changed with an attempt that ended."""
         self.link.soon()
+        self.lrs.soon()
         if ACCESS.student is not None:
             self.look()
 

@@ -7,9 +7,7 @@ by the rule that is named, of attempts that may be compared; what chance adds to
 
 from __future__ import annotations
 
-import datetime
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from itertools import pairwise
 from statistics import median
 from typing import Final
@@ -17,18 +15,26 @@ from typing import Final
 from PySide6.QtCore import QCollator, QLocale, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPen
 
-from app import __version__
 from app.core.progress import Progress
-from app.exchange.moodle import GradeFrom, GradeRule, chance_words
+from app.exchange.moodle import GradeRule, chance_words
 from app.exchange.results import Results
 from app.exercises.guidance import Purpose
 from app.session.board import BoardCell
 from app.session.course import CourseItem
 from app.session.people import Person
 from app.views.debrief.report import DIM, INK, RULE
-from app.views.kit.text import day, moment, number, tr, tr_n, translated
+from app.views.kit.text import day, number, tr, tr_n, translated
 from app.views.people.competence_marks import MARKS
 from app.views.people.competence_marks import rule_words as competence_rule
+from app.views.people.report_facts import (
+    BY_HAND,
+    ReportFacts,
+    dates_words,
+    draw_heading,
+    draw_signatures,
+    mark_words,
+    rule_words,
+)
 from app.views.people.report_pages import ReportPages, draw_pdf
 from app.views.people.results_report import INKS, PASSED
 
@@ -49,32 +55,6 @@ _STAR: Final = 40.0
 """Where the mark of who is competent stands in a column [pt]."""
 _HEAD: Final = 32.0
 _STRIPE: Final = "#f1f3f5"
-_SIGNED: Final = 70.0
-"""Height of the lines for signatures, which stay together [pt]."""
-
-
-@dataclass(frozen=True, slots=True)
-class ReportFacts:
-    """What stands above the marks.
-
-    Attributes:
-        course: its title; empty for all exercises.
-        group: of students; empty for everybody.
-        place: where the course was; empty leaves a line to fill in by hand.
-        rule: of the marks.
-        now: time of the report.
-    """
-
-    course: str = ""
-    group: str = ""
-    place: str = ""
-    rule: GradeRule = field(default_factory=GradeRule)
-    now: datetime.datetime | None = None
-
-    @property
-    def heading(self) -> str:
-        """Return course and group in one line."""
-        return " · ".join(filter(None, (self.course or tr("All exercises"), self.group)))
 
 
 def group_report(
@@ -103,7 +83,7 @@ def group_report(
         _heading(sheet, results, facts)
         _exercises(sheet, results, titles)
         _notes(sheet, results, facts.rule)
-        _signatures(sheet)
+        draw_signatures(sheet, tr("Instructor"), tr("Head of training"))
         room = max(1, int((sheet.inner - _NAME - _TOTAL) // _NARROW))
         items = results.board.items
         for first in range(0, len(items), room):
@@ -128,59 +108,24 @@ def in_order(results: Results) -> list[Person]:
 # --- above the marks ------------------------------------------------------------------------------
 def _heading(sheet: ReportPages, results: Results, facts: ReportFacts) -> None:
     board = results.board
-    sheet.y = sheet.margin + 12.0
-    sheet.text(sheet.margin, facts.heading, 17.0, bold=True, width=sheet.inner)
-    sheet.y += 16.0
-    when = moment(facts.now or datetime.datetime.now().astimezone())
-    kind = tr("Report of a group")
-    words = tr("{kind}, {when}, by Acus {version}", kind=kind, when=when, version=__version__)
-    sheet.text(sheet.margin, words, 9.0, DIM)
-    sheet.y += 2.0
-    sheet.rule()
-    sheet.y += 20.0
-    counted = sum(len(some) for some in board.counted.values())
-    attempts = tr_n("{n} attempt that counts", "{n} attempts that count", counted)
+    counted = [one for some in board.counted.values() for one in some]
+    attempts = tr_n("{n} attempt that counts", "{n} attempts that count", len(counted))
     rows = (
-        (tr("Venue"), facts.place or "_" * 34, tr("Students"), str(len(board.students))),
-        (tr("Dates"), _dates(results), tr("Attempts"), attempts),
+        (tr("Venue"), facts.place or BY_HAND, tr("Students"), str(len(board.students))),
+        (tr("Dates"), dates_words(counted), tr("Attempts"), attempts),
         (tr("Group"), facts.group or tr("Everybody"), tr("Mark"), rule_words(facts.rule)),
     )
-    half = sheet.inner / 2.0
-    for left, first, right, second in rows:
-        for x, name, words in ((sheet.margin, left, first), (sheet.margin + half, right, second)):
-            sheet.text(x, name, 9.0, DIM, bold=True, width=66.0)
-            sheet.text(x + 70.0, words, 9.0, width=half - 78.0)
-        sheet.y += 13.5
-    sheet.y += 8.0
+    draw_heading(sheet, facts.heading, tr("Report of a group"), facts, rows)
 
 
-def rule_words(rule: GradeRule) -> str:
-    """Say which attempts make a mark."""
-    return {
-        GradeFrom.BEST: tr("points of the best attempt, of 100"),
-        GradeFrom.FIRST: tr("points of the first attempt, of 100"),
-        GradeFrom.LAST: tr("points of the last attempt, of 100"),
-        GradeFrom.MEAN: tr("mean of the points of the last {n} attempts, of 100", n=rule.last),
-    }[rule.rule]
-
-
-def _dates(results: Results) -> str:
-    """Say from when to when the attempts are that count."""
-    times = [one.time for some in results.board.counted.values() for one in some]
-    if not times:
-        return "–"
-    first, last = (day(time.astimezone().date()) for time in (min(times), max(times)))
-    return first if first == last else tr("{first} to {last}", first=first, last=last)
-
-
-_COLUMNS: Final = (0.0, 26.0, 290.0, 344.0, 430.0, 536.0, 700.0)
+_COLUMNS: Final = (0.0, 26.0, 250.0, 298.0, 372.0, 490.0, 640.0, 706.0)
 
 
 def _exercises(sheet: ReportPages, results: Results, titles: Mapping[str, str]) -> None:
     """List the exercises by the numbers that stand above the marks."""
     heads = (
         *("", tr("Exercise"), tr("Version"), tr("Purpose")),
-        *(tr("Attempts allowed"), tr("Dates"), tr("Passed")),
+        *(tr("Attempts allowed"), tr("Dates"), tr("Pass mark"), tr("Passed")),
     )
 
     def head() -> None:
@@ -201,7 +146,9 @@ def _exercises(sheet: ReportPages, results: Results, titles: Mapping[str, str]) 
         allowed = str(item.attempts) if item.attempts else tr("any")
         days = [day(one) for one in (item.opens, item.closes) if one]
         passed = _passed_of(results, item)
-        texts = (str(place), named, str(item.version), purpose, allowed, " – ".join(days), passed)
+        given = (named, str(item.version), purpose, allowed, " – ".join(days))
+        mark = mark_words(results.board.pass_mark(item.exercise))
+        texts = (str(place), *given, mark, passed)
         widths = (*(b - a for a, b in pairwise(_COLUMNS)), sheet.inner - _COLUMNS[-1])
         for left, words, width in zip(_COLUMNS, texts, widths, strict=True):
             sheet.text(sheet.margin + left, words, 8.5, bold=not left, width=width - 8.0)
@@ -361,22 +308,6 @@ def _notes(sheet: ReportPages, results: Results, rule: GradeRule) -> None:
     chance = chance[:1].upper() + chance[1:]
     for words in filter(None, (how, near, competent, pages, chance)):
         sheet.paragraph(words if words.endswith(".") else f"{words}.", 8.0, DIM)
-
-
-def _signatures(sheet: ReportPages) -> None:
-    """Leave lines for place and date, and for two signatures, on one page."""
-    sheet.need(_SIGNED)
-    sheet.y += 48.0
-    width = (sheet.inner - 48.0) / 3.0
-    names = (tr("Place, date"), tr("Instructor"), tr("Head of training"))
-    for column, words in enumerate(names):
-        left = sheet.margin + column * (width + 24.0)
-        sheet.painter.setPen(QPen(QColor(INK), 0.6))
-        sheet.painter.drawLine(QPointF(left, sheet.y), QPointF(left + width, sheet.y))
-        sheet.y += 12.0
-        sheet.text(left, words, 8.5, DIM)
-        sheet.y -= 12.0
-    sheet.y += 16.0
 
 
 def _who(person: Person, results: Results) -> str:

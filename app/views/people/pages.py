@@ -7,15 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Final
 
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import (
     QAction,
     QColor,
+    QGuiApplication,
     QKeySequence,
-    QMouseEvent,
-    QPainter,
-    QPaintEvent,
-    QPen,
     QShortcut,
 )
 from PySide6.QtWidgets import (
@@ -26,6 +23,7 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QFormLayout,
     QHBoxLayout,
+    QLabel,
     QLineEdit,
     QPlainTextEdit,
     QSpinBox,
@@ -42,8 +40,8 @@ from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
 from app.exercises.guidance import Purpose
 from app.exercises.schema import Exercise
-from app.scoring.competence import Competence, CompetenceState
-from app.session.board import BoardCell, CurvePoint, ProgressBoard
+from app.scoring.competence import CompetenceState
+from app.session.board import BoardCell, ProgressBoard
 from app.session.course import Course, CourseError, CourseStanding, next_of_course
 from app.session.people import Person
 from app.views.kit import theme
@@ -51,19 +49,18 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import date_text, declared, listing, literal, tr, tr_n, translated
+from app.views.kit.text import declared, listing, literal, tr, tr_n, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 from app.views.people.competence_marks import (
     MARKS,
     CompetenceRates,
     competence_line,
-    draw_changes,
     mark_words,
     rule_words,
 )
 
-_DAY: Final = 86400.0
+_DAY: Final = 24 * 60  # min
 _LEVEL: Final = 0.5
 """A trend of less than this many points a time is level."""
 
@@ -91,12 +88,14 @@ def cell_words(cell: BoardCell) -> str:
 
 def since_words(since: datetime.timedelta) -> str:
     """Say how long ago something was."""
-    days = since.total_seconds() / _DAY
-    if days < 1.0 / 24.0:
+    minutes = since.total_seconds() / 60.0
+    if minutes < 2.0:
         return tr("just now")
-    if days < 1.0:
-        return tr("{n} h ago", n=int(24.0 * days))
-    return tr("{n} d ago", n=int(days))
+    if minutes < 60.0:
+        return tr("{n} min ago", n=int(minutes))
+    if minutes < _DAY:
+        return tr("{n} h ago", n=int(minutes / 60.0))
+    return tr("{n} d ago", n=int(minutes / _DAY))
 
 
 def cell_details(cell: BoardCell) -> str:
@@ -185,6 +184,9 @@ class BoardTab(QWidget):
         self.store = label("", "dim")
         self.store.hide()
         column.addWidget(self.store)
+        self.lrs = label("", "dim")
+        self.lrs.hide()
+        column.addWidget(self.lrs)
         below = QHBoxLayout()
         below.addWidget(self.hint, 1)
         self.buttons = tuple(button(action.text()) for action in (self.curve, self.attempts))
@@ -219,8 +221,11 @@ class BoardTab(QWidget):
 
     def show_store(self, line: str) -> None:
         """Say how it stands with the school's store; empty where there is none."""
-        self.store.setText(literal(line))
-        self.store.setVisible(bool(line))
+        _show_line(self.store, line)
+
+    def show_lrs(self, line: str) -> None:
+        """Say how it stands with the learning record store; empty where there is none."""
+        _show_line(self.lrs, line)
 
     def set_leaving(self, may: bool) -> None:
         """Offer exports, and the choice of a group, or neither."""
@@ -582,7 +587,8 @@ def lead(dialog: QDialog, *fields: QWidget) -> None:
     """Let a dialog open with the cursor in the first of its fields, and Tab go through them."""
     for one, following in pairwise(fields):
         QWidget.setTabOrder(one, following)
-    fields[0].setFocus()
+    for first in fields[:1]:
+        first.setFocus()
 
 
 class EntryDialog(SettingsDialog):
@@ -604,7 +610,7 @@ class EntryDialog(SettingsDialog):
         words: str = "",
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(title, (460, 240), QDialogButtonBox.StandardButton.Ok, parent)
+        super().__init__(title, (460, 0), QDialogButtonBox.StandardButton.Ok, parent)
         self._take = take
         self.lines = [QLineEdit(self) for _ in fields]
         self.form = form = QFormLayout()
@@ -852,131 +858,6 @@ class CourseDialog(SettingsDialog):
             self.add_item(item.exercise, item.version, item.attempts or 0, item.purpose, *days)
 
 
-class CurvePlot(QWidget):
-    """Points over the attempts, 0 to 100, with personal best and moving median.
-
-    Signals:
-        chosen(str): id of the attempt whose point was clicked.
-    """
-
-    chosen = Signal(str)
-
-    def __init__(
-        self,
-        points: Sequence[CurvePoint],
-        parent: QWidget | None = None,
-        standing: Competence | None = None,
-    ) -> None:
-        super().__init__(parent)
-        self._points, self._standing = points, standing
-        self.setMinimumSize(480, 260)
-        self.setMouseTracking(True)
-
-    def place(self, number: int, total: float) -> QPointF:
-        """Return where a number of points of the attempt of that number (from 1) is drawn."""
-        room = QRectF(self.rect()).adjusted(4 * theme.SPACING, theme.SPACING, -theme.SPACING, 0)
-        room.setBottom(room.bottom() - 3 * theme.SPACING)
-        x = room.left() + room.width() * (number - 0.5) / max(2, len(self._points))
-        return QPointF(x, room.bottom() - room.height() * total / 100.0)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw grid, the two lines and the attempts."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        most, at = max(2, len(self._points)), self.place
-        painter.setPen(QColor(theme.now(theme.TEXT_DIM)))
-        left, right = 4.0 * theme.SPACING, self.width() - float(theme.SPACING)
-        for level in (0, 25, 50, 75, 100):
-            y = at(1, level).y()
-            painter.drawText(QPointF(0.0, y + 4.0), str(level))
-            painter.setOpacity(0.25)
-            painter.drawLine(QPointF(left, y), QPointF(right, y))
-            painter.setOpacity(1.0)
-        step = max(1, most // 12)
-        for number in range(1, len(self._points) + 1, step):
-            painter.drawText(QPointF(at(number, 0).x() - 4.0, self.height() - 4.0), str(number))
-        for colour, style, values in (
-            (theme.GOOD, Qt.PenStyle.SolidLine, [p.best for p in self._points]),
-            (theme.WARNING, Qt.PenStyle.DashLine, [p.median for p in self._points]),
-        ):
-            painter.setPen(QPen(QColor(theme.now(colour)), 2.0, style))
-            painter.drawPolyline([at(number, total) for number, total in enumerate(values, 1)])
-        colours = (theme.now(theme.GOOD), theme.now(theme.WARNING))
-        draw_changes(painter, self._standing, at, colours)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(theme.now(theme.TEXT)))
-        for number, point in enumerate(self._points, 1):
-            painter.drawEllipse(at(number, point.total), 4.0, 4.0)
-        painter.end()
-
-    def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Say which attempt is under the mouse."""
-        point = self._under(event.position())
-        told = "" if point is None else f"{point.total:.0f} · {date_text(point.started)}"
-        self.setToolTip(literal(told))
-        shape = Qt.CursorShape.ArrowCursor if point is None else Qt.CursorShape.PointingHandCursor
-        self.setCursor(shape)
-
-    def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Choose the attempt that is under the mouse."""
-        point = self._under(event.position())
-        if point is not None:
-            self.chosen.emit(point.attempt)
-
-    def _under(self, where: QPointF) -> CurvePoint | None:
-        """Return the attempt within reach of a place."""
-        for number, point in enumerate(self._points, 1):
-            away = self.place(number, point.total) - where
-            if away.manhattanLength() < 2.0 * theme.SPACING:
-                return point
-        return None
-
-
-class CurveDialog(QDialog):
-    """A student's curve in one exercise; a click on a point leads to its attempt.
-
-    Signals:
-        attempt_chosen(str): id of the attempt.
-
-    Attributes:
-        attempts: button that lists them all.
-        competence: says how he stands.
-    """
-
-    attempt_chosen = Signal(str)
-
-    def __init__(
-        self, title: str, board: ProgressBoard, key: str, exercise: str, parent: QWidget
-    ) -> None:
-        super().__init__(parent)
-        self.setWindowTitle(title)
-        self.resize(720, 440)
-        points, standing = board.curve(key, exercise), board.competence(key, exercise)
-        self.plot, self.attempts = CurvePlot(points, self, standing), button(tr("Attempts…"))
-        self.competence = label(competence_line(board, key, exercise))
-        self.competence.setToolTip(literal(rule_words(board)))
-        words = tr(
-            "{n} attempts that may be compared · ● points, click for the debrief · solid: personal "
-            "best · dashed: median of the last five",
-            n=len(points),
-        )
-        close = button(tr("Close"))
-        close.clicked.connect(self.reject)
-        row = QHBoxLayout()
-        row.addWidget(label(words if points else tr("No attempt that counts yet."), "dim"), 1)
-        row.addWidget(self.attempts)
-        row.addWidget(close)
-        column = QVBoxLayout(self)
-        column.addWidget(self.plot, 1)
-        column.addWidget(self.competence)
-        column.addLayout(row)
-        self.plot.chosen.connect(self._choose)
-
-    def _choose(self, attempt: str) -> None:
-        self.attempt_chosen.emit(attempt)
-        self.accept()
-
-
 class OnceDialog(QDialog):
     """Something that is shown once only: it closes when somebody says that it is written down.
 
@@ -1015,6 +896,10 @@ def text_dialog(title: str, words: str, text: str, parent: QWidget, once: bool =
     shown = QPlainTextEdit(text)
     shown.setReadOnly(True)
     buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+    copied = button(tr("Copy"))
+    copied.setToolTip(tr("Copy the text, to print it or to keep it elsewhere"))
+    copied.clicked.connect(lambda: QGuiApplication.clipboard().setText(text))
+    buttons.addButton(copied, QDialogButtonBox.ButtonRole.ActionRole)
     buttons.rejected.connect(dialog.reject)
     column = QVBoxLayout(dialog)
     column.addWidget(label(words))
@@ -1024,3 +909,8 @@ def text_dialog(title: str, words: str, text: str, parent: QWidget, once: bool =
         column.addWidget(dialog.asked)
     column.addWidget(buttons)
     return dialog
+
+
+def _show_line(shown: QLabel, line: str) -> None:
+    shown.setText(literal(line))
+    shown.setVisible(bool(line))

@@ -5,7 +5,6 @@ It tells only attempts that may be compared; how many others there are, and why,
 
 from __future__ import annotations
 
-import datetime
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Final
@@ -14,7 +13,6 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPen, QPolygonF
 from PySide6.QtWidgets import QApplication
 
-from app import __version__
 from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.exchange.errors import ExportError
@@ -25,8 +23,21 @@ from app.session.audit import note
 from app.session.board import CurvePoint
 from app.session.people import Person
 from app.views.debrief.report import BAND_INKS, DIM, INK, LINE, MARGIN, RULE, WIDTH, font
-from app.views.kit.text import date_text, listing, moment, number, tr, translated
-from app.views.people.competence_marks import competence_line, draw_changes, rule_words
+from app.views.kit.text import date_text, listing, number, tr, tr_n, translated
+from app.views.people.competence_marks import (
+    competence_line,
+    draw_changes,
+    draw_pass_mark,
+    rule_words,
+)
+from app.views.people.report_facts import (
+    BY_HAND,
+    ReportFacts,
+    dates_words,
+    draw_heading,
+    draw_signatures,
+    mark_words,
+)
 from app.views.people.report_pages import ROW, ReportPages, draw_pdf
 
 PASSED, MEDIAN = BAND_INKS[Band.GOOD], "#8a5a00"
@@ -36,10 +47,7 @@ INKS: Final = {CompetenceState.COMPETENT: PASSED, CompetenceState.RELAPSE: RELAP
 
 
 def student_report(
-    results: Results,
-    person: Person,
-    titles: Mapping[str, str],
-    now: datetime.datetime | None = None,
+    results: Results, person: Person, titles: Mapping[str, str], facts: ReportFacts
 ) -> bytes:
     """Return the report of one student as the bytes of a PDF.
 
@@ -47,16 +55,12 @@ def student_report(
         results: board, remarks, and names where they are wanted.
         person: the student.
         titles: of exercises by id.
-        now: time of the report.
+        facts: what stands above the marks.
     """
-    heading = _who(person, results)
 
     def fill(sheet: ReportPages) -> None:
         board = results.board
-        _heading(sheet, heading, tr("Report of a student"), now)
-        if person.groups:
-            sheet.paragraph(tr("Group: {groups}", groups=listing(person.groups)), colour=DIM)
-        sheet.y += 6.0
+        _heading(sheet, results, person, facts)
         _exercises(sheet, results, person, titles)
         if board.counted:
             sheet.paragraph(rule_words(board), colour=DIM)
@@ -65,10 +69,12 @@ def student_report(
             points = board.curve(person.key, item.exercise)
             if points:
                 standing = board.competence(person.key, item.exercise)
-                _curve(sheet, titles.get(item.exercise, item.exercise), points, standing)
+                mark = board.pass_mark(item.exercise)
+                _curve(sheet, titles.get(item.exercise, item.exercise), points, standing, mark)
         _remarks(sheet, results, person, titles)
+        draw_signatures(sheet, tr("Instructor"), tr("Student"))
 
-    return draw_pdf(fill, heading)
+    return draw_pdf(fill, _who(person, results))
 
 
 def write_report(path: Path, draw: Callable[[], bytes]) -> None:
@@ -94,19 +100,21 @@ def write_report(path: Path, draw: Callable[[], bytes]) -> None:
 
 
 # --- parts ------------------------------------------------------------------------------------
-def _heading(sheet: ReportPages, title: str, kind: str, now: datetime.datetime | None) -> None:
-    sheet.y = MARGIN + 14.0
-    sheet.text(MARGIN, title, 17.0, bold=True, width=WIDTH - 2.0 * MARGIN)
-    sheet.y += 17.0
-    when = moment(now or datetime.datetime.now().astimezone())
-    words = tr("{kind}, {when}, by Acus {version}", kind=kind, when=when, version=__version__)
-    sheet.text(MARGIN, words, 9.5, DIM)
-    sheet.y += 4.0
-    sheet.rule()
-    sheet.y += 26.0
+def _heading(sheet: ReportPages, results: Results, person: Person, facts: ReportFacts) -> None:
+    counted = [
+        one for (key, _), some in results.board.counted.items() for one in some if key == person.key
+    ]
+    attempts = tr_n("{n} attempt that counts", "{n} attempts that count", len(counted))
+    group = listing(person.groups) if person.groups else "–"
+    rows = (
+        (tr("Course"), facts.course or tr("All exercises"), tr("Group"), group),
+        (tr("Venue"), facts.place or BY_HAND, tr("Dates"), dates_words(counted)),
+        (tr("Attempts"), attempts, "", ""),
+    )
+    draw_heading(sheet, _who(person, results), tr("Report of a student"), facts, rows)
 
 
-_COLUMNS: Final = (0.0, 190.0, 250.0, 300.0, 350.0, 420.0)
+_COLUMNS: Final = (0.0, 190.0, 250.0, 300.0, 350.0, 400.0, 462.0)
 
 
 def _exercises(
@@ -115,7 +123,7 @@ def _exercises(
     """List how the student stands in each exercise."""
     heads = (
         *(tr("Exercise"), tr("Attempts"), tr("Best"), tr("Last")),
-        *(tr("Trend"), tr("Passed")),
+        *(tr("Trend"), tr("Pass mark"), tr("Passed")),
     )
 
     def head() -> None:
@@ -132,9 +140,10 @@ def _exercises(
         named = titles.get(item.exercise, item.exercise) + f", v{item.version}"
         trend = "–" if cell.trend is None else number(cell.trend, "+.1f")
         numbers = ("–" if one is None else f"{one:.0f}" for one in (cell.best, cell.last))
-        texts = (named, str(cell.attempts), *numbers, trend, "✔" if cell.passed else "–")
+        mark = mark_words(results.board.pass_mark(item.exercise))
+        texts = (named, str(cell.attempts), *numbers, trend, mark, "✔" if cell.passed else "–")
         for place, (left, words) in enumerate(zip(_COLUMNS, texts, strict=True)):
-            colour = PASSED if cell.passed and place == 5 else INK
+            colour = PASSED if cell.passed and place == 6 else INK
             sheet.text(MARGIN + left, words, colour=colour, width=180.0 if not place else 60.0)
         sheet.y += ROW
         standing = results.board.competence(person.key, item.exercise)
@@ -153,9 +162,13 @@ def _exercises(
 
 
 def _curve(
-    sheet: ReportPages, title: str, points: Sequence[CurvePoint], standing: Competence | None
+    sheet: ReportPages,
+    title: str,
+    points: Sequence[CurvePoint],
+    standing: Competence | None,
+    mark: float | None,
 ) -> None:
-    """Draw points over the attempts, with the best until then and the moving median."""
+    """Draw points over the attempts, with the best until then, the moving median, the mark."""
     height = 110.0
     sheet.need(height + 40.0)
     sheet.text(MARGIN, title, 10.5, bold=True)
@@ -186,6 +199,7 @@ def _curve(
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawPolyline(QPolygonF([place(n, value) for n, value in enumerate(values, 1)]))
     painter.setFont(font(7.5))
+    draw_pass_mark(painter, mark, place, (left, right), DIM)
     draw_changes(painter, standing, place, (PASSED, RELAPSED))
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(LINE))

@@ -255,7 +255,7 @@ class SchoolLink(QObject):
         got = replace(result.gathered, station=tr("From other stations"))
         lines = summary_words(Gathered((got,), tuple(map(PeopleError, result.refused)), ()))
         if not result.unknown:
-            sent = tr_n("{n} packet sent.", "{n} packets sent.", result.sent)
+            sent = tr("What was new here has been sent.")
             nothing = tr("Nothing was waiting to be sent.")
             self._doors.tell(tr("The school's store"), sent if result.sent else nothing, lines)
             return

@@ -76,6 +76,18 @@ class StoreLink(Protocol):
         ...
 
 
+class RecordStoreLink(Protocol):
+    """What the menu asks of the learning record store."""
+
+    def now(self) -> None:
+        """Tell it what is new."""
+        ...
+
+    def connect_lrs(self) -> None:
+        """Ask where it is."""
+        ...
+
+
 class StationExchange:
     """The button of stations on the board, and what its menu does.
 
@@ -83,15 +95,20 @@ class StationExchange:
         button: that gets the menu.
         doors: of the page.
         link: to the school's store.
+        lrs: to the learning record store.
     """
 
-    def __init__(self, button: QPushButton, doors: StationDoors, link: StoreLink) -> None:
+    def __init__(
+        self, button: QPushButton, doors: StationDoors, link: StoreLink, lrs: RecordStoreLink
+    ) -> None:
         self._doors = doors
         menu = QMenu(button)
         self._actions = []
         for title, action in (
             (tr("Exchange with the school's store now"), link.now),
             (tr("Connect to the school's store…"), link.connect_store),
+            (tr("Tell the record store now"), lrs.now),
+            (tr("Connect to a record store (xAPI)…"), lrs.connect_lrs),
             (tr("Bring results of stations together…"), self.choose_files),
             (tr("Write this station's results…"), self.choose_results),
             (tr("Write the course for a station…"), self.choose_course),

@@ -130,7 +130,13 @@ class OpenRun(Protocol):
 
 
 class Services(Protocol):
-    """What `compose` gives the window."""
+    """What `compose` gives the window.
+
+    Attributes:
+        watchers: what is told of every run besides the window, such as live links.
+    """
+
+    watchers: tuple[Any, ...]
 
     def exercises(self) -> tuple[Exercise, ...]:
         """Exercises to choose from, easiest first."""
