@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak check bench trial fuzz kills accuracy promises tests-page portraits docs docs-pictures looks spelling wheel clean
+.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak check bench trial fuzz kills accuracy firmware promises tests-page portraits docs docs-pictures looks spelling wheel wheels sbom deb kit clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -113,6 +113,12 @@ accuracy: setup  ## docs/accuracy from the tables that `acus study all --write` 
 	$(BIN)/python -m tools.accuracy_pages
 	$(BIN)/python -m tools.published_page
 
+wheels: setup  ## whether every package has a wheel for Windows and macOS; asks the package index
+	$(BIN)/python -m tools.wheels
+
+firmware:  ## the board's program for each chip, in out/firmware
+	$(MAKE) -C firmware
+
 promises: setup  ## docs/promises.md from the marks of the tests that hold them
 	$(BIN)/python -m tools.promises
 
@@ -127,6 +133,15 @@ docs: setup  ## the user guide as a site, in app/site: Help and F1 open it
 
 wheel: docs  ## a wheel that runs anywhere, with the user guide in it
 	$(BIN)/python -m build --wheel
+
+kit: setup  ## the hardware kit: numbers of the profiles, print files and pictures, in out/kit
+	./tools/with-display $(BIN)/python -m tools.kit --stl --pictures
+
+sbom: setup  ## what the trainer consists of as CycloneDX, with digests and licences; asks the package index
+	$(BIN)/python -m tools.sbom
+
+deb: wheel  ## a Debian package with the trainer, its own environment and a menu entry: dist/acus_*.deb
+	$(BIN)/python -m tools.deb
 
 clean:
 	rm -rf $(VENV) build dist out app/site

@@ -3,7 +3,7 @@
 The series is imported, opened, planned, practised on, scored and exported by the real commands,
 and opened and imported in the real window; then every file they left, every line they printed and
 the window's log are searched. Its folder and files are named like the patient. In a whole attempt
-in the window it is searched by `test_without_posix`.
+in the window it is searched by `test_other_systems`.
 """
 
 import json

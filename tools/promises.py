@@ -33,7 +33,6 @@ ABSOLUTE = re.compile(r"\b(never|always)\b|\b(on|with) any fault\b", re.IGNORECA
 
 _NO_ROBOT = "no real robot is at hand to try"
 NOT_PROMISED = {
-    "docs/hardware.md: more than 1 %, or as many as 20 ms have, were never answered": "a figure",
     "docs/hardware.md: a student who aligns the needle outside the skin never feels 5 N": (
         "follows from the profile's torque; docs/mechanism.md has the figures"
     ),

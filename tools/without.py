@@ -14,6 +14,7 @@ something is named or does not work.
 
 Every copy lies in the same place, one at a time, and their kernels, volumes and fields of tissue
 are kept together: they are those of the checkout but for what is left out, and made once for all.
+Kernels that the checkout has compiled are taken over.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from __future__ import annotations
 import argparse
 import ast
 import contextlib
+import hashlib
 import os
 import re
 import shutil
@@ -76,6 +78,9 @@ PARTS: Final[Mapping[str, Part]] = {
             *("app/studies/hard_cases/pen.py", "resources/pens", "docs/pen.md"),
             *("tests/**/*_pen.py", "tests/**/test_*_pen_*.py", "tools/pen_pictures.py"),
             *("tests/hard/defects/pen.py", "tests/tracking/pen_rig.py"),
+            # A needle that is tracked elsewhere is a pen that somebody else looks at.
+            *("app/compose/tracked_needle.py", "app/compose/needle_sources/igtl.py"),
+            "tests/test_compose_tracked_needle.py",
         ),
         words=(r"Pen(?:Tracker|Settings|Profile|Tip|Port|Link|Error|Step|Scene)", "LivePen"),
     ),
@@ -93,7 +98,9 @@ PARTS: Final[Mapping[str, Part]] = {
         (
             *("app/research", "app/commands/research.py", "resources/research"),
             *("docs/research.md", "tests/research", "tests/commands/test_commands_research.py"),
+            *("app/views/research", "tests/views/test_views_research.py"),
         ),
+        words=("ResearchFeature",),
         tests=("tests/commands/test_commands_tree.py", "tests/commands/test_commands_people.py"),
     ),
     "pacs": Part(
@@ -104,6 +111,19 @@ PARTS: Final[Mapping[str, Part]] = {
         words=("pacs",),
     ),
     "cohort": Part(("app/cohort", "app/commands/cohort.py", "docs/cohort.md", "tests/cohort")),
+    "links": Part(
+        (
+            *("app/exchange/live", "app/compose/watchers/links.py"),
+            *("app/compose/tracked_needle.py", "app/compose/needle_sources/igtl.py"),
+            *("app/views/links", "docs/links.md", "tests/exchange/live_rig.py"),
+            *("tests/exchange/test_exchange_igtl.py", "tests/exchange/test_exchange_rosbridge.py"),
+            *("tests/exchange/test_exchange_foxglove.py", "resources/foxglove-layout.json"),
+            "tests/bench/bench_links.py",
+            *("tests/test_compose_tracked_needle.py", "tests/test_compose_live_links.py"),
+            "tests/views/test_views_links.py",
+        ),
+        words=("LinksFeature", "LiveBoard"),
+    ),
     "author": Part(
         ("app/views/author", "docs/authoring.md", "tests/views/test_views_author.py"),
         words=("AuthorFeature", r"authoring\.md"),
@@ -150,7 +170,7 @@ for broken in known.broken:
     failed += 1
     print(f"{broken.path}: {broken.reason}")
 commands = build()
-for words in (["exercise", "list"], *(["explain", name] for name in known.ids())):
+for words in (["exercise", "list"], *(["explain", name] for name in sys.argv[1:] or known.ids())):
     try:
         with contextlib.redirect_stdout(io.StringIO()):
             code = commands(words, standalone_mode=False)
@@ -279,6 +299,19 @@ def tests_left(folder: Path, part: Part, pattern: re.Pattern[str], asked: list[s
     ]
 
 
+def _take_kernels(folder: Path, kernels: Path) -> None:
+    """Copy what the checkout has compiled: numba keeps it by the path of each file's folder."""
+    compiled = Path(os.environ["NUMBA_CACHE_DIR"])
+    for package in {path.parent for path in (folder / "app").rglob("*.py")}:
+        own = ROOT / package.relative_to(folder)
+        source, target = (
+            place / f"{here.name}_{hashlib.sha1(str(here).encode()).hexdigest()}"
+            for place, here in ((compiled, own), (kernels, package))
+        )
+        if source.is_dir() and not target.exists():
+            shutil.copytree(source, target)
+
+
 def _run(folder: Path, *arguments: str) -> int:
     """Run Python in a copy, with data, settings and cache of their own; return how it ended."""
     own = {name: folder.parent / name for name in ("data", "settings")}
@@ -293,13 +326,16 @@ def _run(folder: Path, *arguments: str) -> int:
     return subprocess.run(command, cwd=folder, env=environment, check=False).returncode
 
 
-def goes_on(name: str, place: Path, tests: list[str] | None = None) -> bool:
+def goes_on(
+    name: str, place: Path, tests: list[str] | None = None, explained: tuple[str, ...] = ()
+) -> bool:
     """Copy, ask and look; print what is wrong, and return whether nothing is.
 
     Args:
         name: of the part.
         place: folder for the copy, its kernels and its cache.
         tests: paths of tests to run too, empty for all; None runs none.
+        explained: exercises that are asked for; all that are left without.
     """
     part, folder = PARTS[name], place / "acus"
     made = (*place.glob("kernels/*"), *place.glob("cache/*"))
@@ -307,11 +343,12 @@ def goes_on(name: str, place: Path, tests: list[str] | None = None) -> bool:
     for leftover in (*(place / kind for kind in ("data", "settings")), *earlier):
         shutil.rmtree(leftover, ignore_errors=True)
     left_out = copied(part, folder)
+    _take_kernels(folder, place / "kernels" / kernels_digest())
     print(f"{folder}: without {', '.join(left_out)}", flush=True)
     pattern = pattern_of(part, left_out)
     named = list(naming(folder, pattern, ("app", "acus", "resources")))
     print("\n".join(named) or "nothing names what is gone", flush=True)
-    ended = [_run(folder, "-P", "-c", IMPORTS), _run(folder, "-P", "-c", ANSWERS)]
+    ended = [_run(folder, "-P", "-c", IMPORTS), _run(folder, "-P", "-c", ANSWERS, *explained)]
     if tests is not None:
         files = tests_left(folder, part, pattern, tests)
         print(f"{len(files)} files of tests", flush=True)

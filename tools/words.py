@@ -50,6 +50,7 @@ FIELD_ENDS = re.compile(r"_(\d+|first|last|count|min|max|type|round)$")
 NOT_FOR_PEOPLE = frozenset(
     (
         *("AttributeError", "Cancelled", "ConstructorError", "Exit", "PydanticCustomError"),
+        *("DepartureError", "UnseenError"),  # of a board: a report for whoever writes its firmware
         *("FileExistsError", "FileNotFoundError", "OSError", "SystemExit"),
     )
 )

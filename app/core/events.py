@@ -1,5 +1,7 @@
 """Events are a queue: each is seen once by whoever drains it, none is lost silently."""
 
+from __future__ import annotations
+
 import threading
 from collections import deque
 from collections.abc import Mapping
@@ -29,13 +31,23 @@ class EventQueue:
     def __init__(self, capacity: int = 1024) -> None:
         self._events: deque[Event] = deque(maxlen=capacity)
         self._lock = threading.Lock()
+        self._followers: tuple[EventQueue, ...] = ()
         self.lost = 0
+
+    def follow(self, capacity: int = 256) -> EventQueue:
+        """Return a queue of its own that gets every event from now on."""
+        follower = EventQueue(capacity)
+        with self._lock:
+            self._followers += (follower,)
+        return follower
 
     def put(self, event: Event) -> None:
         """Append an event; never blocks."""
         with self._lock:
             self.lost += len(self._events) == self._events.maxlen
             self._events.append(event)
+        for follower in self._followers:
+            follower.put(event)
 
     def drain(self) -> list[Event]:
         """Take all waiting events, oldest first."""

@@ -1120,6 +1120,22 @@
             <translation type="unfinished">{gathered:#1 Versuch|# Versuche} aus {from} nach {folder} geholt</translation>
         </message>
         <message>
+            <source>--ct goes with --dicom FOLDER</source>
+            <translation type="unfinished">--ct gehört zu --dicom ORDNER</translation>
+        </message>
+        <message>
+            <source>--dicom and --trajectory exclude each other</source>
+            <translation type="unfinished">--dicom und --trajectory schließen einander aus</translation>
+        </message>
+        <message>
+            <source>give --out FILE for CSV or a bag, or --dicom FOLDER for DICOM</source>
+            <translation type="unfinished">geben Sie --out DATEI für CSV oder einen Bag an, oder --dicom ORDNER für DICOM</translation>
+        </message>
+        <message>
+            <source>{rows:#1 message|# messages} written to {files}</source>
+            <translation type="unfinished">{rows:#1 Nachricht|# Nachrichten} geschrieben nach {files}</translation>
+        </message>
+        <message>
             <source>--out {out}: only .csv can be written</source>
             <translation type="unfinished">--out {out}: Nur .csv lässt sich schreiben</translation>
         </message>
@@ -1128,8 +1144,8 @@
             <translation type="unfinished">{rows:#1 Zeile|# Zeilen} in {files} geschrieben</translation>
         </message>
         <message>
-            <source>--trajectory takes exactly one session id</source>
-            <translation type="unfinished">--trajectory verlangt genau eine Sitzungskennung</translation>
+            <source>--{option} takes exactly one session id</source>
+            <translation type="unfinished">--{option} nimmt genau eine Kennung eines Versuchs</translation>
         </message>
         <message>
             <source>student</source>
@@ -2200,8 +2216,12 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">die Platine verstummte {last_answer:.2f} s nach dem Beginn: {unanswered}; prüfen Sie Stromversorgung, Kabel und Programm der Platine, und testen Sie noch einmal</translation>
         </message>
         <message>
-            <source>{unanswered}, at most {most_lost} may be: check the cable and its plugs, and what else this computer has to do, then test again</source>
-            <translation type="unfinished">{unanswered}, zulässig sind höchstens {most_lost}: Prüfen Sie Kabel und Stecker, und was dieser Computer sonst noch zu tun hat, und testen Sie noch einmal</translation>
+            <source>{unanswered}: check the cable and its plugs, and what else this computer has to do, then test again</source>
+            <translation type="unfinished">{unanswered}: Prüfen Sie Kabel und Stecker, und was dieser Computer sonst noch zu tun hat, und testen Sie noch einmal</translation>
+        </message>
+        <message>
+            <source>the loop did not run: this computer is too busy to test a wire</source>
+            <translation type="unfinished">die Schleife lief nicht: Dieser Computer ist zu beschäftigt, um eine Leitung zu prüfen</translation>
         </message>
         <message>
             <source>only {count_nonzero} answers of the robot on {port} came within a tick of {rate_hz:g} ms; lower loop.rate_hz in the profile or use a faster port</source>
@@ -4568,12 +4588,16 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">ein Array neben einer Nachricht ist keines</translation>
         </message>
         <message>
+            <source>no memory has that name</source>
+            <translation type="unfinished">kein Speicher heißt so</translation>
+        </message>
+        <message>
             <source>a message of {length} bytes</source>
             <translation type="unfinished">eine Nachricht von {length} Byte</translation>
         </message>
         <message>
-            <source>no file descriptor came</source>
-            <translation type="unfinished">es kam kein Dateideskriptor</translation>
+            <source>no memory came</source>
+            <translation type="unfinished">es kam kein Speicher</translation>
         </message>
         <message>
             <source>{name} is no number</source>
@@ -5688,6 +5712,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">das CT {name} von {some}</translation>
         </message>
         <message>
+            <source>{name}: {reason}</source>
+            <translation type="unfinished">{name}: {reason}</translation>
+        </message>
+        <message>
             <source>its list is too long</source>
             <translation type="unfinished">ihre Liste ist zu lang</translation>
         </message>
@@ -6182,6 +6210,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>its row was not written by this station</source>
             <translation type="unfinished">seine Zeile wurde nicht von dieser Station geschrieben</translation>
+        </message>
+        <message>
+            <source>the attempt {id} has gone meanwhile: look again</source>
+            <translation type="unfinished">der Versuch {id} ist inzwischen nicht mehr da: noch einmal nachsehen</translation>
         </message>
         <message>
             <source>the robot is not homed</source>
@@ -12430,8 +12462,8 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Diese Übung vormachen</translation>
         </message>
         <message>
-            <source>level {n} of {most}</source>
-            <translation type="unfinished">Stufe {n} von {most}</translation>
+            <source>difficulty {n} of {most}</source>
+            <translation type="unfinished">Schwierigkeit {n} von {most}</translation>
         </message>
         <message>
             <source>Assessment</source>
@@ -14881,6 +14913,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alles sichern…</translation>
         </message>
         <message>
+            <source>Back up into a folder…</source>
+            <translation type="unfinished">In einen Ordner sichern…</translation>
+        </message>
+        <message>
             <source>Restore a backup…</source>
             <translation type="unfinished">Sicherung zurückholen…</translation>
         </message>
@@ -14897,8 +14933,24 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Anmelden</translation>
         </message>
         <message>
+            <source>give --home: ids of statements begin with it</source>
+            <translation type="unfinished">--home angeben: damit beginnen die Kennungen der Aussagen</translation>
+        </message>
+        <message>
             <source>Password</source>
             <translation type="unfinished">Passwort</translation>
+        </message>
+        <message>
+            <source>{lrs:?attempts are told to {lrs}|this station tells no record store}</source>
+            <translation type="unfinished">{lrs:?Versuche werden {lrs} mitgeteilt|dieser Platz teilt keinem Lernspeicher etwas mit}</translation>
+        </message>
+        <message>
+            <source>this station tells no record store: `acus results lrs URL --home ADDRESS` does</source>
+            <translation type="unfinished">dieser Platz teilt keinem Lernspeicher etwas mit: `acus results lrs URL --home ADDRESS` richtet es ein</translation>
+        </message>
+        <message>
+            <source>{sent:#1 statement|# statements} sent; {waiting:#1 waits|# wait}</source>
+            <translation type="unfinished">{sent:#1 Aussage|# Aussagen} gesendet; {waiting:#1 wartet|# warten}</translation>
         </message>
         <message>
             <source>Sign in as the instructor</source>
@@ -15198,6 +15250,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">gerade eben</translation>
         </message>
         <message>
+            <source>{n} min ago</source>
+            <translation type="unfinished">vor {n} min</translation>
+        </message>
+        <message>
             <source>{n} h ago</source>
             <translation type="unfinished">vor {n} Std.</translation>
         </message>
@@ -15480,6 +15536,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Übung zum Hinzufügen</translation>
         </message>
         <message>
+            <source>Copy the text, to print it or to keep it elsewhere</source>
+            <translation type="unfinished">Den Text kopieren, um ihn zu drucken oder anderswo aufzubewahren</translation>
+        </message>
+        <message>
             <source>Version</source>
             <translation type="unfinished">Version</translation>
         </message>
@@ -15576,6 +15636,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Erlaubte Versuche</translation>
         </message>
         <message>
+            <source>Pass mark</source>
+            <translation type="unfinished">Bestehensgrenze</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Noch kein Versuch eines angemeldeten Teilnehmers.</translation>
         </message>
@@ -15610,10 +15674,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Report of a student</source>
             <translation type="unfinished">Bericht eines Teilnehmers</translation>
-        </message>
-        <message>
-            <source>Group: {groups}</source>
-            <translation type="unfinished">Gruppe: {groups}</translation>
         </message>
         <message>
             <source>{kind}, {when}, by Acus {version}</source>
@@ -18306,8 +18366,60 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Radius</translation>
         </message>
         <message>
+            <source>Research studies</source>
+            <translation type="unfinished">Forschungsstudien</translation>
+        </message>
+        <message>
+            <source>choose</source>
+            <translation type="unfinished">wählen</translation>
+        </message>
+        <message>
+            <source>Answer…</source>
+            <translation type="unfinished">Beantworten…</translation>
+        </message>
+        <message>
+            <source>The student answers in the window that opens; nobody sees the arm</source>
+            <translation type="unfinished">Geantwortet wird im Fenster, das sich öffnet; den Arm sieht niemand</translation>
+        </message>
+        <message>
+            <source>Study</source>
+            <translation type="unfinished">Studie</translation>
+        </message>
+        <message>
+            <source>Visit</source>
+            <translation type="unfinished">Besuch</translation>
+        </message>
+        <message>
+            <source>Questionnaire</source>
+            <translation type="unfinished">Fragebogen</translation>
+        </message>
+        <message>
+            <source>No study has begun here: Research studies in the help says how one begins.</source>
+            <translation type="unfinished">Hier hat keine Studie begonnen: Forschungsstudien in der Hilfe sagt, wie eine beginnt.</translation>
+        </message>
+        <message>
             <source>From</source>
             <translation type="unfinished">Von</translation>
+        </message>
+        <message>
+            <source>Until</source>
+            <translation type="unfinished">Bis</translation>
+        </message>
+        <message>
+            <source>Visits that are due</source>
+            <translation type="unfinished">Fällige Besuche</translation>
+        </message>
+        <message>
+            <source>{made} of {wanted}</source>
+            <translation type="unfinished">{made} von {wanted}</translation>
+        </message>
+        <message>
+            <source>{made}, late</source>
+            <translation type="unfinished">{made}, verspätet</translation>
+        </message>
+        <message>
+            <source>{made}, not open yet</source>
+            <translation type="unfinished">{made}, noch nicht offen</translation>
         </message>
         <message>
             <source>To</source>
@@ -18356,6 +18468,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>A large vessel runs along the path, 2 cm beside it. There is hardly any guidance; the robot pushes the needle aside when it is about to reach the vessel, and back before it leans too far. A needle that meets the vessel or a rib fails. The patient holds the breath.</source>
             <translation type="unfinished">Ein großes Gefäß verläuft am Pfad entlang, 2 cm daneben. Es gibt kaum Führung; der Roboter drückt die Nadel zur Seite, wenn sie das Gefäß zu erreichen droht, und zurück, bevor sie sich zu weit neigt. Trifft die Nadel das Gefäß oder eine Rippe, ist der Versuch nicht bestanden. Der Patient hält den Atem an.</translation>
+        </message>
+        <message>
+            <source>A needle that another program tracks, by OpenIGTLink</source>
+            <translation type="unfinished">Eine Nadel, die ein anderes Programm verfolgt, über OpenIGTLink</translation>
         </message>
         <message>
             <source>A nodule of 1 cm lies in the right lung. The path runs between two ribs, 28° from the right and 16° from below, so no axial slice shows it whole: follow it in the oblique planes along the needle, or slice by slice. Align exactly before the skin. A rib stops the needle, and touching one fails. Lung gives way: once inside, it hardly holds the needle on its path. The nodule moves a little with every breath: go in while it rests at the end of exhalation.</source>
@@ -18949,6 +19065,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>The last day for {n}.</source>
+            <translation type="unfinished">
+                <numerusform>Für {n} ist es der letzte Tag.</numerusform>
+                <numerusform>Für {n} ist es der letzte Tag.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>best of {n} attempts</source>
             <translation type="unfinished">
                 <numerusform>bester von {n} Versuch</numerusform>
@@ -19068,6 +19191,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts saved in {name}, {new:.1f} MB were new</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch in {name} gesichert, {new:.1f} MB waren neu</numerusform>
+                <numerusform>{n} Versuche in {name} gesichert, {new:.1f} MB waren neu</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts that count</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch, der zählt</numerusform>
@@ -19173,13 +19303,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} packets sent.</source>
-            <translation type="unfinished">
-                <numerusform>{n} Paket gesendet.</numerusform>
-                <numerusform>{n} Pakete gesendet.</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
             <source>{n} pairs of attempts</source>
             <translation type="unfinished">
                 <numerusform>{n} Paar von Versuchen</numerusform>
@@ -19222,6 +19345,27 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} statements sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Aussage gesendet.</numerusform>
+                <numerusform>{n} Aussagen gesendet.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} statements wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} Aussage wartet auf das Senden.</numerusform>
+                <numerusform>{n} Aussagen warten auf das Senden.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} statements wait to be sent: `acus results send`</source>
+            <translation type="unfinished">
+                <numerusform>{n} Aussage wartet auf das Senden: `acus results send`</numerusform>
+                <numerusform>{n} Aussagen warten auf das Senden: `acus results send`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} stations wait to be let in: Stations, Exchange … now</source>
             <translation type="unfinished">
                 <numerusform>{n} Station wartet auf Einlass: Stationen, Jetzt … austauschen</numerusform>
@@ -19233,6 +19377,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
                 <numerusform>{n} Teilnehmer {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} visits of studies are due: Sessions, Research studies…</source>
+            <translation type="unfinished">
+                <numerusform>{n} Studienbesuch ist fällig: Sitzungen, Forschungsstudien…</numerusform>
+                <numerusform>{n} Studienbesuche sind fällig: Sitzungen, Forschungsstudien…</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19461,6 +19612,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Passwort des Kursleiters</translation>
         </message>
         <message>
+            <source>Passphrase of the backups</source>
+            <translation type="unfinished">Passphrase der Sicherungen</translation>
+        </message>
+        <message>
             <source>compiling for the first time, up to a minute …</source>
             <translation type="unfinished">erstmaliges Übersetzen des Programms, bis zu einer Minute …</translation>
         </message>
@@ -19599,6 +19754,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">nichts passt</translation>
         </message>
         <message>
+            <source>give --pacs NAME, or --web URL and --user NAME with it</source>
+            <translation type="unfinished">entweder --pacs NAME angeben, oder --web URL und dazu --user NAME</translation>
+        </message>
+        <message>
             <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
             <translation type="unfinished">bei 100 % drucken, die Linie von 100 mm prüfen, ausschneiden, falten, kleben (docs/pen.md)</translation>
         </message>
@@ -19659,6 +19818,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{records:#1 Aufzeichnung|# Aufzeichnungen} in {files} geschrieben</translation>
         </message>
         <message>
+            <source>give --out FILE or --into FOLDER; --encrypt and --with-cts need --into</source>
+            <translation type="unfinished">--out DATEI oder --into ORDNER angeben; --encrypt und --with-cts brauchen --into</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} written to {files}, {new_mb:.1f} MB were new</source>
+            <translation type="unfinished">{records:#1 Aufzeichnung|# Aufzeichnungen} nach {files} geschrieben, {new_mb:.1f} MB waren neu</translation>
+        </message>
+        <message>
             <source>not in it: {}</source>
             <translation type="unfinished">nicht darin: {}</translation>
         </message>
@@ -19673,6 +19840,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{erased} records left out: their person was erased</source>
             <translation type="unfinished">{erased} Aufzeichnungen ausgelassen: Ihre Person wurde gelöscht</translation>
+        </message>
+        <message>
+            <source>a CT lies in {}: move it to where its exercise names it</source>
+            <translation type="unfinished">ein CT liegt in {}: dorthin verschieben, wo seine Übung es nennt</translation>
         </message>
         <message>
             <source>✖ not taken: {}</source>
@@ -20239,6 +20410,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Von anderen Stationen</translation>
         </message>
         <message>
+            <source>What was new here has been sent.</source>
+            <translation type="unfinished">Was hier neu war, ist gesendet.</translation>
+        </message>
+        <message>
             <source>Nothing was waiting to be sent.</source>
             <translation type="unfinished">Es wartete nichts darauf, gesendet zu werden.</translation>
         </message>
@@ -20261,6 +20436,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Connect to the school's store…</source>
             <translation type="unfinished">Mit dem Speicher der Schule verbinden…</translation>
+        </message>
+        <message>
+            <source>Tell the record store now</source>
+            <translation type="unfinished">Dem Lernspeicher jetzt mitteilen</translation>
+        </message>
+        <message>
+            <source>Connect to a record store (xAPI)…</source>
+            <translation type="unfinished">Mit einem Lernspeicher verbinden (xAPI) …</translation>
         </message>
         <message>
             <source>This station…</source>
@@ -20379,6 +20562,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">das Objekt {digest} des Speichers der Schule fehlt oder ist beschädigt: seine Verwaltung holt es aus einer Sicherung zurück; der Rest wurde übernommen</translation>
         </message>
         <message>
+            <source>there is no such bucket: its administrator makes it</source>
+            <translation type="unfinished">diesen Bucket gibt es nicht: der Administrator legt ihn an</translation>
+        </message>
+        <message>
+            <source>it does not know this key: give that of its administrator</source>
+            <translation type="unfinished">er kennt diesen Schlüssel nicht: den des Administrators angeben</translation>
+        </message>
+        <message>
+            <source>it takes too long to answer</source>
+            <translation type="unfinished">er antwortet zu langsam</translation>
+        </message>
+        <message>
             <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
             <translation type="unfinished">die Objekte des Speichers der Schule sind nicht zu benutzen: diese Station macht weiter und versucht es wieder ({reason})</translation>
         </message>
@@ -20479,12 +20674,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Prüfsumme, mit den Ergebnissen anzugeben: {digest}</translation>
         </message>
         <message>
-            <source>{study}: {files:#1 file|# files} as stated, {scores:#1 score|# scores} computed again</source>
-            <translation type="unfinished">{study}: {files:#1 Datei|# Dateien} wie angegeben, {scores:#1 Ergebnis|# Ergebnisse} nachgerechnet</translation>
+            <source>left out: {}</source>
+            <translation type="unfinished">ausgelassen: {}</translation>
+        </message>
+        <message>
+            <source>{study}: {files:#1 file|# files} as stated; made again: {scores:#1 score|# scores}, {made_again:#1 table or figure|# tables and figures}</source>
+            <translation type="unfinished">{study}: {files:#1 Datei|# Dateien} wie angegeben; neu gemacht: {scores:#1 Punktzahl|# Punktzahlen}, {made_again:#1 Tabelle oder Abbildung|# Tabellen und Abbildungen}</translation>
         </message>
         <message>
             <source>digest: {digest}</source>
             <translation type="unfinished">Prüfsumme: {digest}</translation>
+        </message>
+        <message>
+            <source>{}</source>
+            <translation type="unfinished">{}</translation>
         </message>
         <message>
             <source>{name} is {entry:g}: give {least:g} to {most:g}</source>
@@ -20727,6 +20930,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Kompetent: scheitert in höchstens {acceptable} % der Versuche, nicht in {unacceptable} % oder mehr (LC-CUSUM). Von denen, die es nicht sind, heißen höchstens {false_alarm} % innerhalb von {attempts} Versuchen kompetent; von denen, die es sind, höchstens {missed} % nicht. Weitere Versuche: 80-%-Intervall, wenn es so weitergeht wie in den letzten Versuchen.</translation>
         </message>
         <message>
+            <source>{mark:g} to pass</source>
+            <translation type="unfinished">{mark:g} zum Bestehen</translation>
+        </message>
+        <message>
             <source>Acceptable failures</source>
             <translation type="unfinished">Annehmbare Fehler</translation>
         </message>
@@ -20891,6 +21098,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Teilnehmer und Kurse der Sicherung statt der hiesigen</translation>
         </message>
         <message>
+            <source>Passphrase of the backup</source>
+            <translation type="unfinished">Passphrase der Sicherung</translation>
+        </message>
+        <message>
             <source>Restoring a backup</source>
             <translation type="unfinished">Sicherung wird zurückgeholt</translation>
         </message>
@@ -20925,6 +21136,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Another file here, which stays: {names}</source>
             <translation type="unfinished">Hier eine andere Datei, die bleibt: {names}</translation>
+        </message>
+        <message>
+            <source>A CT lies in {folder}: its exercise names another place.</source>
+            <translation type="unfinished">Ein CT liegt in {folder}: seine Übung nennt einen anderen Ort.</translation>
         </message>
         <message>
             <source>Not taken: {what}</source>
@@ -21159,6 +21374,30 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{file} steht in keinem Verzeichnis des Pakets</translation>
         </message>
         <message>
+            <source>{file} is not what the tables hold</source>
+            <translation type="unfinished">{file} ist nicht, was die Tabellen enthalten</translation>
+        </message>
+        <message>
+            <source>Parquet was not compared: {reason}</source>
+            <translation type="unfinished">Parquet wurde nicht verglichen: {reason}</translation>
+        </message>
+        <message>
+            <source>figures were drawn by matplotlib {there}, here is {here}: not compared</source>
+            <translation type="unfinished">Abbildungen wurden mit matplotlib {there} gezeichnet, hier ist {here}: nicht verglichen</translation>
+        </message>
+        <message>
+            <source>{file} is not what the tables give</source>
+            <translation type="unfinished">{file} ist nicht, was die Tabellen ergeben</translation>
+        </message>
+        <message>
+            <source>figures were not drawn again: {reason}</source>
+            <translation type="unfinished">Abbildungen wurden nicht neu gezeichnet: {reason}</translation>
+        </message>
+        <message>
+            <source>figures cannot be drawn again: {reason}</source>
+            <translation type="unfinished">Abbildungen lassen sich nicht neu zeichnen: {reason}</translation>
+        </message>
+        <message>
             <source>{file}: {reason}</source>
             <translation type="unfinished">{file}: {reason}</translation>
         </message>
@@ -21389,6 +21628,562 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>it is too large</source>
             <translation type="unfinished">sie ist zu groß</translation>
+        </message>
+        <message>
+            <source>Research studies…</source>
+            <translation type="unfinished">Forschungsstudien…</translation>
+        </message>
+        <message>
+            <source>Looking at the studies</source>
+            <translation type="unfinished">Studien werden durchgesehen</translation>
+        </message>
+        <message>
+            <source>Kept: {title} of {student}, {visit}</source>
+            <translation type="unfinished">Gespeichert: {title} von {student}, {visit}</translation>
+        </message>
+        <message>
+            <source>{student}, visit {visit}. Nobody is judged by this.</source>
+            <translation type="unfinished">{student}, Besuch {visit}. Niemand wird danach beurteilt.</translation>
+        </message>
+        <message>
+            <source>Without an answer: {items}.</source>
+            <translation type="unfinished">Ohne Antwort: {items}.</translation>
+        </message>
+        <message>
+            <source>The answers are not kept yet. Cancel once more to leave without them.</source>
+            <translation type="unfinished">Die Antworten sind noch nicht gespeichert. Noch einmal Abbrechen geht ohne sie.</translation>
+        </message>
+        <message>
+            <source>nothing in this program takes --{option}</source>
+            <translation type="unfinished">nichts in diesem Programm nimmt --{option} an</translation>
+        </message>
+        <message>
+            <source>--{option} is of no use without a link: {protocols}</source>
+            <translation type="unfinished">--{option} nützt nichts ohne eine Verbindung: {protocols}</translation>
+        </message>
+        <message>
+            <source>--{name} {port!r} is no port: 0 to 65535</source>
+            <translation type="unfinished">--{name} {port!r} ist kein Port: 0 bis 65535</translation>
+        </message>
+        <message>
+            <source>{link} at {address}</source>
+            <translation type="unfinished">{link} auf {address}</translation>
+        </message>
+        <message>
+            <source>peers of the links need the token {token}</source>
+            <translation type="unfinished">Gegenstellen der Verbindungen brauchen das Token {token}</translation>
+        </message>
+        <message>
+            <source>the token of the links has {length} characters; at least {least} are needed</source>
+            <translation type="unfinished">das Token der Verbindungen hat {length} Zeichen; mindestens {least} sind nötig</translation>
+        </message>
+        <message>
+            <source>--links-allow {address!r} is no address and no network; valid are 10.0.0.7, 10.0.0.0/24, fd00::/64, with commas between</source>
+            <translation type="unfinished">--links-allow {address!r} ist weder Adresse noch Netz; gültig sind 10.0.0.7, 10.0.0.0/24, fd00::/64, mit Kommas dazwischen</translation>
+        </message>
+        <message>
+            <source>{title}: port {port} is not 0 to 65535</source>
+            <translation type="unfinished">{title}: Port {port} liegt nicht zwischen 0 und 65535</translation>
+        </message>
+        <message>
+            <source>{title} cannot listen at {host} port {port}: {reason}; close the other program, or choose another port</source>
+            <translation type="unfinished">{title} kann auf {host} Port {port} nicht lauschen: {reason}; das andere Programm schließen oder einen anderen Port wählen</translation>
+        </message>
+        <message>
+            <source>{title}: {host} is no address here</source>
+            <translation type="unfinished">{title}: {host} ist hier keine Adresse</translation>
+        </message>
+        <message>
+            <source>{title}: the host {host!r} is not known; give a name or an address of this computer</source>
+            <translation type="unfinished">{title}: der Rechner {host!r} ist nicht bekannt; einen Namen oder eine Adresse dieses Computers angeben</translation>
+        </message>
+        <message>
+            <source>there is no channel {channel}</source>
+            <translation type="unfinished">es gibt keinen Kanal {channel}</translation>
+        </message>
+        <message>
+            <source>there are 64 subscriptions already</source>
+            <translation type="unfinished">es gibt schon 64 Abonnements</translation>
+        </message>
+        <message>
+            <source>{operation!r} is not known; there are subscribe and unsubscribe</source>
+            <translation type="unfinished">{operation!r} ist nicht bekannt; es gibt subscribe und unsubscribe</translation>
+        </message>
+        <message>
+            <source>OpenIGTLink has no token: to listen at {host}, name who may come in, --links-allow 10.0.0.7 or a network, 10.0.0.0/24</source>
+            <translation type="unfinished">OpenIGTLink hat kein Token: um auf {host} zu lauschen, angeben, wer herein darf, --links-allow 10.0.0.7 oder ein Netz, 10.0.0.0/24</translation>
+        </message>
+        <message>
+            <source>it sends more than {most} messages a second</source>
+            <translation type="unfinished">sie sendet mehr als {most} Nachrichten in der Sekunde</translation>
+        </message>
+        <message>
+            <source>igtl:{address} is no address of an OpenIGTLink server; valid are igtl:HOST, igtl:HOST:PORT and igtl:[::1]:PORT</source>
+            <translation type="unfinished">igtl:{address} ist keine Adresse eines OpenIGTLink-Servers; gültig sind igtl:HOST, igtl:HOST:PORT und igtl:[::1]:PORT</translation>
+        </message>
+        <message>
+            <source>TRANSFORM announces {size} bytes</source>
+            <translation type="unfinished">TRANSFORM kündigt {size} Bytes an</translation>
+        </message>
+        <message>
+            <source>it begins with {first_bytes}, which is no header of version 1 to 3</source>
+            <translation type="unfinished">sie beginnt mit {first_bytes}, das ist kein Kopf der Version 1 bis 3</translation>
+        </message>
+        <message>
+            <source>type or device name {raw} is no text</source>
+            <translation type="unfinished">Typ oder Gerätename {raw} ist kein Text</translation>
+        </message>
+        <message>
+            <source>a message has no type</source>
+            <translation type="unfinished">eine Nachricht hat keinen Typ</translation>
+        </message>
+        <message>
+            <source>{kind} announces {size} bytes; at most {largest} are taken</source>
+            <translation type="unfinished">{kind} kündigt {size} Bytes an; höchstens {largest} werden angenommen</translation>
+        </message>
+        <message>
+            <source>{kind} of {device}: its CRC is wrong</source>
+            <translation type="unfinished">{kind} von {device}: die CRC ist falsch</translation>
+        </message>
+        <message>
+            <source>{kind} of {device}: extended header or metadata do not fit its {size} bytes</source>
+            <translation type="unfinished">{kind} von {device}: erweiterter Kopf oder Metadaten passen nicht zu den {size} Bytes</translation>
+        </message>
+        <message>
+            <source>TRANSFORM {device} has {size} bytes; 48 are a matrix</source>
+            <translation type="unfinished">TRANSFORM {device} hat {size} Bytes; 48 sind eine Matrix</translation>
+        </message>
+        <message>
+            <source>TRANSFORM {device} is refused: {why}</source>
+            <translation type="unfinished">TRANSFORM {device} wird abgelehnt: {why}</translation>
+        </message>
+        <message>
+            <source>a value of it is not finite</source>
+            <translation type="unfinished">ein Wert darin ist nicht endlich</translation>
+        </message>
+        <message>
+            <source>a value of it is {size:.3g}</source>
+            <translation type="unfinished">ein Wert darin ist {size:.3g}</translation>
+        </message>
+        <message>
+            <source>it scales by {x:.4g}, {y:.4g}, {z:.4g}</source>
+            <translation type="unfinished">sie skaliert um {x:.4g}, {y:.4g}, {z:.4g}</translation>
+        </message>
+        <message>
+            <source>it is left-handed</source>
+            <translation type="unfinished">sie ist linkshändig</translation>
+        </message>
+        <message>
+            <source>it is no rotation: its axes are not at right angles</source>
+            <translation type="unfinished">sie ist keine Drehung: die Achsen stehen nicht senkrecht aufeinander</translation>
+        </message>
+        <message>
+            <source>op {operation!r} is not known; there are {known}</source>
+            <translation type="unfinished">op {operation!r} ist nicht bekannt; es gibt {known}</translation>
+        </message>
+        <message>
+            <source>topic {topic!r} is not known; there are {known}</source>
+            <translation type="unfinished">Topic {topic!r} ist nicht bekannt; es gibt {known}</translation>
+        </message>
+        <message>
+            <source>throttle_rate {throttle!r} is not 0 to 3600000 ms</source>
+            <translation type="unfinished">throttle_rate {throttle!r} liegt nicht zwischen 0 und 3600000 ms</translation>
+        </message>
+        <message>
+            <source>there are {most} subscriptions already</source>
+            <translation type="unfinished">es gibt schon {most} Abonnements</translation>
+        </message>
+        <message>
+            <source>nobody here listens to {topic!r}; {image_points} takes a plan</source>
+            <translation type="unfinished">niemand hört hier auf {topic!r}; {image_points} nimmt einen Plan an</translation>
+        </message>
+        <message>
+            <source>a message of {topic} has the field data</source>
+            <translation type="unfinished">eine Nachricht von {topic} hat das Feld data</translation>
+        </message>
+        <message>
+            <source>the plan is refused: {reason}</source>
+            <translation type="unfinished">der Plan wird abgelehnt: {reason}</translation>
+        </message>
+        <message>
+            <source>service {service!r} is not known; there are {known}</source>
+            <translation type="unfinished">Dienst {service!r} ist nicht bekannt; es gibt {known}</translation>
+        </message>
+        <message>
+            <source>{topic} has type {expected}, not {other!r}</source>
+            <translation type="unfinished">{topic} hat den Typ {expected}, nicht {other!r}</translation>
+        </message>
+        <message>
+            <source>this is no JSON: {error}</source>
+            <translation type="unfinished">das ist kein JSON: {error}</translation>
+        </message>
+        <message>
+            <source>this is no CBOR: {error}</source>
+            <translation type="unfinished">das ist kein CBOR: {error}</translation>
+        </message>
+        <message>
+            <source>a message is a mapping with `op`</source>
+            <translation type="unfinished">eine Nachricht ist eine Zuordnung mit `op`</translation>
+        </message>
+        <message>
+            <source>{name} is not {size} numbers, metres in the frame patient</source>
+            <translation type="unfinished">{name} besteht nicht aus {size} Zahlen, Metern im Rahmen patient</translation>
+        </message>
+        <message>
+            <source>{name} has a number beyond {farthest:g} m: metres are expected</source>
+            <translation type="unfinished">{name} hat eine Zahl jenseits von {farthest:g} m: Meter werden erwartet</translation>
+        </message>
+        <message>
+            <source>{operation} needs {name}, a text</source>
+            <translation type="unfinished">{operation} braucht {name}, einen Text</translation>
+        </message>
+        <message>
+            <source>the service needs {names}</source>
+            <translation type="unfinished">der Dienst braucht {names}</translation>
+        </message>
+        <message>
+            <source>{folder} is there already; name a new folder for the bag</source>
+            <translation type="unfinished">{folder} gibt es schon; einen neuen Ordner für den Bag angeben</translation>
+        </message>
+        <message>
+            <source>the record {record} holds no samples</source>
+            <translation type="unfinished">die Aufzeichnung {record} enthält keine Messwerte</translation>
+        </message>
+        <message>
+            <source>the bag {folder} cannot be written: {reason}</source>
+            <translation type="unfinished">der Bag {folder} kann nicht geschrieben werden: {reason}</translation>
+        </message>
+        <message>
+            <source>{name} has {size} items, not {wanted}</source>
+            <translation type="unfinished">{name} hat {size} Einträge, nicht {wanted}</translation>
+        </message>
+        <message>
+            <source>A plan of a live link is refused: {why}</source>
+            <translation type="unfinished">Ein Plan einer Live-Verbindung wird abgelehnt: {why}</translation>
+        </message>
+        <message>
+            <source>A live link has set entry and target.</source>
+            <translation type="unfinished">Eine Live-Verbindung hat Eintritt und Ziel gesetzt.</translation>
+        </message>
+        <message>
+            <source>nobody yet</source>
+            <translation type="unfinished">noch niemand</translation>
+        </message>
+        <message>
+            <source>{peers} · {rate:.0f}/s</source>
+            <translation type="unfinished">{peers} · {rate:.0f}/s</translation>
+        </message>
+        <message>
+            <source>Programs that are connected, and messages a second. It listens at {address}.</source>
+            <translation type="unfinished">Verbundene Programme und Nachrichten in der Sekunde. Es lauscht auf {address}.</translation>
+        </message>
+        <message>
+            <source>no structures: no SEG, and the structure set has the points alone</source>
+            <translation type="unfinished">keine Strukturen: kein SEG, und der Struktursatz enthält nur die Punkte</translation>
+        </message>
+        <message>
+            <source>nothing measured where the tip ended: it is in no object</source>
+            <translation type="unfinished">wo die Spitze endete, wurde nicht gemessen: sie steht in keinem Objekt</translation>
+        </message>
+        <message>
+            <source>the built-in patient's CT is in {folder}</source>
+            <translation type="unfinished">das CT des eingebauten Patienten liegt in {folder}</translation>
+        </message>
+        <message>
+            <source>{files}: {structures:#1 structure|# structures}</source>
+            <translation type="unfinished">{files}: {structures:#1 Struktur|# Strukturen}</translation>
+        </message>
+        <message>
+            <source>{objects:#1 object|# objects} sent to {to}</source>
+            <translation type="unfinished">{objects:#1 Objekt|# Objekte} an {to} gesendet</translation>
+        </message>
+        <message>
+            <source>note  {}</source>
+            <translation type="unfinished">Hinweis  {}</translation>
+        </message>
+        <message>
+            <source>this station has the exercise of the attempt no more: give the folder of its CT by --ct</source>
+            <translation type="unfinished">dieser Platz hat die Übung des Versuchs nicht mehr: den Ordner des CT mit --ct angeben</translation>
+        </message>
+        <message>
+            <source>the hand is wanted at {place}: give finite values</source>
+            <translation type="unfinished">die Hand wird bei {place} gewünscht: endliche Werte angeben</translation>
+        </message>
+        <message>
+            <source>the address holds a user: give name and password apart, where no list of addresses shows them</source>
+            <translation type="unfinished">die Adresse enthält einen Benutzer: Name und Passwort getrennt angeben, wo keine Liste von Adressen sie zeigt</translation>
+        </message>
+        <message>
+            <source>{address!r} is no address: give one such as https://server.school.example/path</source>
+            <translation type="unfinished">{address!r} ist keine Adresse: eine wie https://server.school.example/path angeben</translation>
+        </message>
+        <message>
+            <source>{host} would be told by plain http, which everybody on the way can read: give an address that begins with https</source>
+            <translation type="unfinished">{host} würde es unverschlüsselt über http erfahren, das jeder unterwegs lesen kann: eine Adresse angeben, die mit https beginnt</translation>
+        </message>
+        <message>
+            <source>{id} was not ended ({state}): it has no result</source>
+            <translation type="unfinished">{id} wurde nicht beendet ({state}): es gibt kein Ergebnis</translation>
+        </message>
+        <message>
+            <source>{id} was made on another CT ({pseudonym}): give its folder by --ct</source>
+            <translation type="unfinished">{id} wurde an einem anderen CT gemacht ({pseudonym}): dessen Ordner mit --ct angeben</translation>
+        </message>
+        <message>
+            <source>{id} does not say when it began: its objects have no date</source>
+            <translation type="unfinished">{id} sagt nicht, wann der Versuch begann: seine Objekte haben kein Datum</translation>
+        </message>
+        <message>
+            <source>{name} does not answer, or cannot now: it was not connected; look at the address and at the network, and try again</source>
+            <translation type="unfinished">{name} antwortet nicht oder kann es jetzt nicht: es wurde nicht verbunden; Adresse und Netz prüfen und noch einmal versuchen</translation>
+        </message>
+        <message>
+            <source>{name} shows a certificate that is not trusted ({reason}): nothing was sent; ask who runs it, or name its authority by SSL_CERT_FILE</source>
+            <translation type="unfinished">{name} zeigt ein Zertifikat, dem nicht vertraut wird ({reason}): nichts wurde gesendet; den Betreiber fragen oder die Zertifizierungsstelle mit SSL_CERT_FILE nennen</translation>
+        </message>
+        <message>
+            <source>{name} does not answer, or not to the end, within {seconds:g} s: nothing is lost, it is sent later</source>
+            <translation type="unfinished">{name} antwortet innerhalb von {seconds:g} s nicht oder nicht bis zum Ende: nichts geht verloren, es wird später gesendet</translation>
+        </message>
+        <message>
+            <source>{name} does not let {user!r} in ({status}): give name and password again, `acus results lrs URL`</source>
+            <translation type="unfinished">{name} lässt {user!r} nicht ein ({status}): Name und Passwort neu angeben, `acus results lrs URL`</translation>
+        </message>
+        <message>
+            <source>{name} sends on to {other}: it was not followed; if the record store is there, give that address</source>
+            <translation type="unfinished">{name} verweist auf {other}: dem wurde nicht gefolgt; steht der Lernspeicher dort, diese Adresse angeben</translation>
+        </message>
+        <message>
+            <source>{name} cannot take statements now ({status}): nothing is lost, it is sent later</source>
+            <translation type="unfinished">{name} kann jetzt keine Aussagen annehmen ({status}): nichts geht verloren, es wird später gesendet</translation>
+        </message>
+        <message>
+            <source>what answers at {endpoint} is no record store ({status}): give the address that stands before /statements</source>
+            <translation type="unfinished">was unter {endpoint} antwortet, ist kein Lernspeicher ({status}): die Adresse angeben, die vor /statements steht</translation>
+        </message>
+        <message>
+            <source>{name} does not say which statements it took: nothing is lost, it is sent later; if that stays so, its address is not a record store's</source>
+            <translation type="unfinished">{name} sagt nicht, welche Aussagen angenommen wurden: nichts geht verloren, es wird später gesendet; bleibt es dabei, gehört die Adresse keinem Lernspeicher</translation>
+        </message>
+        <message>
+            <source>{name} has another statement by the id {id}: this one stays here; ask who runs the record store to void that one</source>
+            <translation type="unfinished">{name} hat eine andere Aussage unter der Kennung {id}: diese bleibt hier; den Betreiber des Lernspeichers bitten, jene für ungültig zu erklären</translation>
+        </message>
+        <message>
+            <source>{name} says that it has {id}, and does not show it: it stays here; ask who runs the record store</source>
+            <translation type="unfinished">{name} sagt, {id} sei vorhanden, und zeigt es nicht: es bleibt hier; den Betreiber des Lernspeichers fragen</translation>
+        </message>
+        <message>
+            <source>{name} refuses {id} ({status} {said}): it stays here; ask who runs the record store</source>
+            <translation type="unfinished">{name} lehnt {id} ab ({status} {said}): es bleibt hier; den Betreiber des Lernspeichers fragen</translation>
+        </message>
+        <message>
+            <source>record store: {fault}</source>
+            <translation type="unfinished">Lernspeicher: {fault}</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the record store is: give it again, `acus results lrs URL --home ADDRESS`</source>
+            <translation type="unfinished">{path} sagt nicht, wo der Lernspeicher ist: neu angeben, `acus results lrs URL --home ADDRESS`</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder}</source>
+            <translation type="unfinished">der Ordner {folder} ist nicht da</translation>
+        </message>
+        <message>
+            <source>{folder} holds no DICOM objects: give the folder that `acus session export ID --dicom FOLDER` has written</source>
+            <translation type="unfinished">{folder} enthält keine DICOM-Objekte: den Ordner angeben, den `acus session export ID --dicom FOLDER` geschrieben hat</translation>
+        </message>
+        <message>
+            <source>{file} is not an object of an attempt: nothing was sent</source>
+            <translation type="unfinished">{file} ist kein Objekt eines Versuchs: nichts wurde gesendet</translation>
+        </message>
+        <message>
+            <source>{name} takes no objects of the kind of {file} ({kind}): its administrator can allow them; {taken} of {count} were taken</source>
+            <translation type="unfinished">{name} nimmt keine Objekte der Art von {file} ({kind}): der Administrator kann sie zulassen; {taken} von {count} wurden angenommen</translation>
+        </message>
+        <message>
+            <source>{name} refused {file}: {refusal}; {taken} of {count} were taken, and can be sent again</source>
+            <translation type="unfinished">{name} hat {file} abgelehnt: {refusal}; {taken} von {count} wurden angenommen und können nochmals gesendet werden</translation>
+        </message>
+        <message>
+            <source>{name} was gone, or silent for {seconds:g} s, when {file} was sent: {taken} of {count} were taken; send them again, it keeps each once</source>
+            <translation type="unfinished">{name} war fort oder schwieg {seconds:g} s lang, als {file} gesendet wurde: {taken} von {count} wurden angenommen; nochmals senden, jedes wird einmal behalten</translation>
+        </message>
+        <message>
+            <source>archive: {fault}</source>
+            <translation type="unfinished">Archiv: {fault}</translation>
+        </message>
+        <message>
+            <source>{name} does not answer, or not to the end, within {seconds:g} s: send it again, what it has taken is kept once</source>
+            <translation type="unfinished">{name} antwortet innerhalb von {seconds:g} s nicht oder nicht bis zum Ende: nochmals senden, was angenommen wurde, wird einmal behalten</translation>
+        </message>
+        <message>
+            <source>{name} does not let {user!r} in ({status}): give name and password again</source>
+            <translation type="unfinished">{name} lässt {user!r} nicht ein ({status}): Name und Passwort neu angeben</translation>
+        </message>
+        <message>
+            <source>{name} sends on to {other}: it was not followed; if the archive is there, give that address</source>
+            <translation type="unfinished">{name} verweist auf {other}: dem wurde nicht gefolgt; steht das Archiv dort, diese Adresse angeben</translation>
+        </message>
+        <message>
+            <source>{name} took {taken} of {count} objects ({status}{reasons}): ask who runs it, and send them again</source>
+            <translation type="unfinished">{name} hat {taken} von {count} Objekten angenommen ({status}{reasons}): den Betreiber fragen und nochmals senden</translation>
+        </message>
+        <message>
+            <source>this CT is not slice for slice that of DICOM files (it was resampled, or comes from another format): objects can refer to none of its pictures</source>
+            <translation type="unfinished">dieses CT ist nicht Schicht für Schicht das von DICOM-Dateien (es wurde umgerechnet oder kommt aus einem anderen Format): Objekte können sich auf keines seiner Bilder beziehen</translation>
+        </message>
+        <message>
+            <source>{folder} cannot be written: {reason}</source>
+            <translation type="unfinished">{folder} kann nicht geschrieben werden: {reason}</translation>
+        </message>
+        <message>
+            <source>this CT lacks what {name} has to repeat of it ({lacking})</source>
+            <translation type="unfinished">diesem CT fehlt, was {name} davon wiederholen muss ({lacking})</translation>
+        </message>
+        <message>
+            <source>this CT was not de-identified, and objects that refer to it would name its patient: import it first (`acus ct import`), and give the library's folder</source>
+            <translation type="unfinished">dieses CT wurde nicht de-identifiziert, und Objekte, die sich darauf beziehen, würden seinen Patienten nennen: zuerst importieren (`acus ct import`) und den Ordner der Bibliothek angeben</translation>
+        </message>
+        <message>
+            <source>the plan of this attempt meets no slice of this CT</source>
+            <translation type="unfinished">der Plan dieses Versuchs trifft keine Schicht dieses CT</translation>
+        </message>
+        <message>
+            <source>Record store</source>
+            <translation type="unfinished">Lernspeicher</translation>
+        </message>
+        <message>
+            <source>Telling the record store</source>
+            <translation type="unfinished">Dem Lernspeicher wird mitgeteilt</translation>
+        </message>
+        <message>
+            <source>A learning record store (LRS) is told who, by pseudonym, passed which exercise, with the score. Its address stands before /statements; empty: nothing is told. Ids begin with an address that you own.</source>
+            <translation type="unfinished">Einem Lernspeicher (LRS) wird mitgeteilt, wer, unter Pseudonym, welche Übung mit welcher Punktzahl bestanden hat. Seine Adresse steht vor /statements; leer: nichts wird mitgeteilt. Kennungen beginnen mit einer Adresse, die Ihnen gehört.</translation>
+        </message>
+        <message>
+            <source>Address</source>
+            <translation type="unfinished">Adresse</translation>
+        </message>
+        <message>
+            <source>Ids begin with</source>
+            <translation type="unfinished">Kennungen beginnen mit</translation>
+        </message>
+        <message>
+            <source>User</source>
+            <translation type="unfinished">Benutzer</translation>
+        </message>
+        <message>
+            <source>Asking the record store</source>
+            <translation type="unfinished">Der Lernspeicher wird gefragt</translation>
+        </message>
+        <message>
+            <source>Record store: told at {time}</source>
+            <translation type="unfinished">Lernspeicher: um {time} mitgeteilt</translation>
+        </message>
+        <message>
+            <source>the board conforms: {kept} rules kept, {unseen} not seen</source>
+            <translation type="unfinished">die Platine hält das Protokoll ein: {kept} Regeln eingehalten, {unseen} nicht zu sehen</translation>
+        </message>
+        <message>
+            <source>the board does not conform: {broken} rules broken, {kept} kept, {unseen} not seen</source>
+            <translation type="unfinished">die Platine hält das Protokoll nicht ein: {broken} Regeln verletzt, {kept} eingehalten, {unseen} nicht zu sehen</translation>
+        </message>
+        <message>
+            <source>the profile {profile} speaks {protocol}; what can be held against docs/protocol.md is Acus' own protocol</source>
+            <translation type="unfinished">das Profil {profile} spricht {protocol}; an docs/protocol.md lässt sich nur das eigene Protokoll von Acus messen</translation>
+        </message>
+        <message>
+            <source>the board reports error {board_error}, {meaning}; then test again</source>
+            <translation type="unfinished">die Platine meldet Fehler {board_error}, {meaning}; testen Sie danach noch einmal</translation>
+        </message>
+        <message>
+            <source>the robot of the board {serial} is homed, and this test homes it anew wherever it stands: switch the board off and on, test it, and home it then</source>
+            <translation type="unfinished">der Roboter der Platine {serial} ist referenziert, und dieser Test referenziert ihn neu, wo er gerade steht: Schalten Sie die Platine aus und ein, testen Sie sie und referenzieren Sie ihn dann</translation>
+        </message>
+        <message>
+            <source>{source} is encrypted, and that is not its passphrase: type it again</source>
+            <translation type="unfinished">{source} ist verschlüsselt, und das ist nicht die Passphrase: noch einmal eingeben</translation>
+        </message>
+        <message>
+            <source>it is not what was written</source>
+            <translation type="unfinished">sie ist nicht, was geschrieben wurde</translation>
+        </message>
+        <message>
+            <source>its piece {name} is missing</source>
+            <translation type="unfinished">ihr Stück {name} fehlt</translation>
+        </message>
+        <message>
+            <source>its piece {name} is not what was written: delete it, and back up again while the file is still here</source>
+            <translation type="unfinished">ihr Stück {name} ist nicht, was geschrieben wurde: es löschen und noch einmal sichern, solange die Datei noch hier ist</translation>
+        </message>
+        <message>
+            <source>{source} is encrypted: give its passphrase</source>
+            <translation type="unfinished">{source} ist verschlüsselt: die Passphrase angeben</translation>
+        </message>
+        <message>
+            <source>{name} has a piece without a name</source>
+            <translation type="unfinished">{name} hat ein Stück ohne Namen</translation>
+        </message>
+        <message>
+            <source>{folder} holds no backup ({suffix}): give the folder that `acus store backup` was given</source>
+            <translation type="unfinished">{folder} enthält keine Sicherung ({suffix}): den Ordner angeben, der `acus store backup` gegeben wurde</translation>
+        </message>
+        <message>
+            <source>{fault}; the backup before it is {earlier}</source>
+            <translation type="unfinished">{fault}; die Sicherung davor ist {earlier}</translation>
+        </message>
+        <message>
+            <source>the backups in {folder} are encrypted: give their passphrase</source>
+            <translation type="unfinished">die Sicherungen in {folder} sind verschlüsselt: ihre Passphrase angeben</translation>
+        </message>
+        <message>
+            <source>the backups in {folder} are not encrypted: choose another folder for encrypted ones</source>
+            <translation type="unfinished">die Sicherungen in {folder} sind nicht verschlüsselt: für verschlüsselte einen anderen Ordner wählen</translation>
+        </message>
+        <message>
+            <source>its format is {kind!r}</source>
+            <translation type="unfinished">ihr Format ist {kind!r}</translation>
+        </message>
+        <message>
+            <source>it is not whole</source>
+            <translation type="unfinished">sie ist unvollständig</translation>
+        </message>
+        <message>
+            <source>{source} is no backup of Acus, or damaged: {fault}; give another one</source>
+            <translation type="unfinished">{source} ist keine Sicherung von Acus oder beschädigt: {fault}; eine andere angeben</translation>
+        </message>
+        <message>
+            <source>Back up into a folder</source>
+            <translation type="unfinished">In einen Ordner sichern</translation>
+        </message>
+        <message>
+            <source>The first backup in {name}; later ones there write only what is new. It holds names: without its passphrase an encrypted one cannot be read again.</source>
+            <translation type="unfinished">Die erste Sicherung in {name}; spätere schreiben dort nur, was neu ist. Sie enthält Namen: ohne ihre Passphrase lässt sich eine verschlüsselte nicht wieder lesen.</translation>
+        </message>
+        <message>
+            <source>What is new since the last backup in {name} is added. It holds names.</source>
+            <translation type="unfinished">Was seit der letzten Sicherung in {name} neu ist, kommt hinzu. Sie enthält Namen.</translation>
+        </message>
+        <message>
+            <source>The backups there are not encrypted.</source>
+            <translation type="unfinished">Die Sicherungen dort sind nicht verschlüsselt.</translation>
+        </message>
+        <message>
+            <source>The CTs of own exercises too</source>
+            <translation type="unfinished">Auch die CTs eigener Übungen</translation>
+        </message>
+        <message>
+            <source>the two passphrases are not the same: type them again</source>
+            <translation type="unfinished">die beiden Passphrasen sind nicht gleich: noch einmal eingeben</translation>
+        </message>
+        <message>
+            <source>Passphrase</source>
+            <translation type="unfinished">Passphrase</translation>
+        </message>
+        <message>
+            <source>Passphrase (empty: not encrypted)</source>
+            <translation type="unfinished">Passphrase (leer: unverschlüsselt)</translation>
         </message>
     </context>
 </TS>

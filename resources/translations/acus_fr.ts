@@ -1120,6 +1120,22 @@
             <translation type="unfinished">{gathered:#1 essai apporté|# essais apportés|0 essai apporté} de {from} vers {folder}</translation>
         </message>
         <message>
+            <source>--ct goes with --dicom FOLDER</source>
+            <translation type="unfinished">--ct va avec --dicom DOSSIER</translation>
+        </message>
+        <message>
+            <source>--dicom and --trajectory exclude each other</source>
+            <translation type="unfinished">--dicom et --trajectory s’excluent</translation>
+        </message>
+        <message>
+            <source>give --out FILE for CSV or a bag, or --dicom FOLDER for DICOM</source>
+            <translation type="unfinished">donnez --out FICHIER pour un CSV ou un bag, ou --dicom DOSSIER pour DICOM</translation>
+        </message>
+        <message>
+            <source>{rows:#1 message|# messages} written to {files}</source>
+            <translation type="unfinished">{rows:#1 message|# messages} écrits dans {files}</translation>
+        </message>
+        <message>
             <source>--out {out}: only .csv can be written</source>
             <translation type="unfinished">--out {out} : seul .csv peut être écrit</translation>
         </message>
@@ -1128,8 +1144,8 @@
             <translation type="unfinished">{rows:#1 ligne écrite|# lignes écrites|0 ligne écrite} dans {files}</translation>
         </message>
         <message>
-            <source>--trajectory takes exactly one session id</source>
-            <translation type="unfinished">--trajectory demande exactement un identifiant de séance</translation>
+            <source>--{option} takes exactly one session id</source>
+            <translation type="unfinished">--{option} prend exactement un identifiant d’essai</translation>
         </message>
         <message>
             <source>student</source>
@@ -2200,8 +2216,12 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">la carte s’est tue {last_answer:.2f} s après le début : {unanswered} ; vérifiez son alimentation, son câble et son programme, puis refaites le test</translation>
         </message>
         <message>
-            <source>{unanswered}, at most {most_lost} may be: check the cable and its plugs, and what else this computer has to do, then test again</source>
-            <translation type="unfinished">{unanswered}, au plus {most_lost} sont permises : vérifiez le câble et ses connecteurs, et ce que cet ordinateur a d’autre à faire, puis refaites le test</translation>
+            <source>{unanswered}: check the cable and its plugs, and what else this computer has to do, then test again</source>
+            <translation type="unfinished">{unanswered} : vérifiez le câble et ses connecteurs, et ce que cet ordinateur a d’autre à faire, puis refaites le test</translation>
+        </message>
+        <message>
+            <source>the loop did not run: this computer is too busy to test a wire</source>
+            <translation type="unfinished">la boucle n’a pas tourné : cet ordinateur est trop occupé pour tester une liaison</translation>
         </message>
         <message>
             <source>only {count_nonzero} answers of the robot on {port} came within a tick of {rate_hz:g} ms; lower loop.rate_hz in the profile or use a faster port</source>
@@ -4568,12 +4588,16 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">un tableau joint à un message n’en est pas un</translation>
         </message>
         <message>
+            <source>no memory has that name</source>
+            <translation type="unfinished">aucune mémoire ne porte ce nom</translation>
+        </message>
+        <message>
             <source>a message of {length} bytes</source>
             <translation type="unfinished">un message de {length} octets</translation>
         </message>
         <message>
-            <source>no file descriptor came</source>
-            <translation type="unfinished">aucun descripteur de fichier n’est arrivé</translation>
+            <source>no memory came</source>
+            <translation type="unfinished">aucune mémoire n’est arrivée</translation>
         </message>
         <message>
             <source>{name} is no number</source>
@@ -5688,6 +5712,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">le CT {name} de {some}</translation>
         </message>
         <message>
+            <source>{name}: {reason}</source>
+            <translation type="unfinished">{name} : {reason}</translation>
+        </message>
+        <message>
             <source>its list is too long</source>
             <translation type="unfinished">sa liste est trop longue</translation>
         </message>
@@ -6182,6 +6210,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         <message>
             <source>its row was not written by this station</source>
             <translation type="unfinished">sa ligne n’a pas été écrite par ce poste</translation>
+        </message>
+        <message>
+            <source>the attempt {id} has gone meanwhile: look again</source>
+            <translation type="unfinished">l’essai {id} n’est plus là : regardez de nouveau</translation>
         </message>
         <message>
             <source>the robot is not homed</source>
@@ -12430,8 +12462,8 @@ Lettres : directions du patient
             <translation type="unfinished">Montrez-moi cet exercice</translation>
         </message>
         <message>
-            <source>level {n} of {most}</source>
-            <translation type="unfinished">niveau {n} sur {most}</translation>
+            <source>difficulty {n} of {most}</source>
+            <translation type="unfinished">difficulté {n} sur {most}</translation>
         </message>
         <message>
             <source>Assessment</source>
@@ -14881,6 +14913,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tout sauvegarder…</translation>
         </message>
         <message>
+            <source>Back up into a folder…</source>
+            <translation type="unfinished">Sauvegarder dans un dossier…</translation>
+        </message>
+        <message>
             <source>Restore a backup…</source>
             <translation type="unfinished">Restaurer une sauvegarde…</translation>
         </message>
@@ -14897,8 +14933,24 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Se connecter</translation>
         </message>
         <message>
+            <source>give --home: ids of statements begin with it</source>
+            <translation type="unfinished">donner --home : les identifiants des déclarations commencent par elle</translation>
+        </message>
+        <message>
             <source>Password</source>
             <translation type="unfinished">Mot de passe</translation>
+        </message>
+        <message>
+            <source>{lrs:?attempts are told to {lrs}|this station tells no record store}</source>
+            <translation type="unfinished">{lrs:?les essais sont communiqués à {lrs}|ce poste ne communique rien à un LRS}</translation>
+        </message>
+        <message>
+            <source>this station tells no record store: `acus results lrs URL --home ADDRESS` does</source>
+            <translation type="unfinished">ce poste ne communique rien à un LRS : `acus results lrs URL --home ADDRESS` le met en place</translation>
+        </message>
+        <message>
+            <source>{sent:#1 statement|# statements} sent; {waiting:#1 waits|# wait}</source>
+            <translation type="unfinished">{sent:#1 déclaration envoyée|# déclarations envoyées} ; {waiting:#1 attend|# attendent}</translation>
         </message>
         <message>
             <source>Sign in as the instructor</source>
@@ -15198,6 +15250,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">à l’instant</translation>
         </message>
         <message>
+            <source>{n} min ago</source>
+            <translation type="unfinished">il y a {n} min</translation>
+        </message>
+        <message>
             <source>{n} h ago</source>
             <translation type="unfinished">il y a {n} h</translation>
         </message>
@@ -15480,6 +15536,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Exercice à ajouter</translation>
         </message>
         <message>
+            <source>Copy the text, to print it or to keep it elsewhere</source>
+            <translation type="unfinished">Copier le texte, pour l’imprimer ou le garder ailleurs</translation>
+        </message>
+        <message>
             <source>Version</source>
             <translation type="unfinished">Version</translation>
         </message>
@@ -15576,6 +15636,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Essais permis</translation>
         </message>
         <message>
+            <source>Pass mark</source>
+            <translation type="unfinished">Seuil de réussite</translation>
+        </message>
+        <message>
             <source>No attempt of a student who signed in yet.</source>
             <translation type="unfinished">Pas encore d’essai d’un étudiant connecté.</translation>
         </message>
@@ -15610,10 +15674,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Report of a student</source>
             <translation type="unfinished">Rapport d’un étudiant</translation>
-        </message>
-        <message>
-            <source>Group: {groups}</source>
-            <translation type="unfinished">Groupe : {groups}</translation>
         </message>
         <message>
             <source>{kind}, {when}, by Acus {version}</source>
@@ -18306,8 +18366,60 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rayon</translation>
         </message>
         <message>
+            <source>Research studies</source>
+            <translation type="unfinished">Études de recherche</translation>
+        </message>
+        <message>
+            <source>choose</source>
+            <translation type="unfinished">choisir</translation>
+        </message>
+        <message>
+            <source>Answer…</source>
+            <translation type="unfinished">Répondre…</translation>
+        </message>
+        <message>
+            <source>The student answers in the window that opens; nobody sees the arm</source>
+            <translation type="unfinished">L’étudiant répond dans la fenêtre qui s’ouvre ; personne ne voit le bras</translation>
+        </message>
+        <message>
+            <source>Study</source>
+            <translation type="unfinished">Étude</translation>
+        </message>
+        <message>
+            <source>Visit</source>
+            <translation type="unfinished">Visite</translation>
+        </message>
+        <message>
+            <source>Questionnaire</source>
+            <translation type="unfinished">Questionnaire</translation>
+        </message>
+        <message>
+            <source>No study has begun here: Research studies in the help says how one begins.</source>
+            <translation type="unfinished">Aucune étude n’a commencé ici : « Études de recherche » dans l’aide dit comment en commencer une.</translation>
+        </message>
+        <message>
             <source>From</source>
             <translation type="unfinished">De</translation>
+        </message>
+        <message>
+            <source>Until</source>
+            <translation type="unfinished">Jusqu’au</translation>
+        </message>
+        <message>
+            <source>Visits that are due</source>
+            <translation type="unfinished">Visites à faire</translation>
+        </message>
+        <message>
+            <source>{made} of {wanted}</source>
+            <translation type="unfinished">{made} sur {wanted}</translation>
+        </message>
+        <message>
+            <source>{made}, late</source>
+            <translation type="unfinished">{made}, en retard</translation>
+        </message>
+        <message>
+            <source>{made}, not open yet</source>
+            <translation type="unfinished">{made}, pas encore ouverte</translation>
         </message>
         <message>
             <source>To</source>
@@ -18356,6 +18468,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>A large vessel runs along the path, 2 cm beside it. There is hardly any guidance; the robot pushes the needle aside when it is about to reach the vessel, and back before it leans too far. A needle that meets the vessel or a rib fails. The patient holds the breath.</source>
             <translation type="unfinished">Un gros vaisseau longe la trajectoire, à 2 cm. Il n’y a presque pas de guidage ; le robot écarte l’aiguille quand elle est sur le point d’atteindre le vaisseau, et la ramène avant qu’elle ne s’incline trop. Si l’aiguille rencontre le vaisseau ou une côte, l’essai est échoué. Le patient retient sa respiration.</translation>
+        </message>
+        <message>
+            <source>A needle that another program tracks, by OpenIGTLink</source>
+            <translation type="unfinished">Une aiguille suivie par un autre programme, par OpenIGTLink</translation>
         </message>
         <message>
             <source>A nodule of 1 cm lies in the right lung. The path runs between two ribs, 28° from the right and 16° from below, so no axial slice shows it whole: follow it in the oblique planes along the needle, or slice by slice. Align exactly before the skin. A rib stops the needle, and touching one fails. Lung gives way: once inside, it hardly holds the needle on its path. The nodule moves a little with every breath: go in while it rests at the end of exhalation.</source>
@@ -18949,6 +19065,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>The last day for {n}.</source>
+            <translation type="unfinished">
+                <numerusform>Dernier jour pour {n}.</numerusform>
+                <numerusform>Dernier jour pour {n}.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>best of {n} attempts</source>
             <translation type="unfinished">
                 <numerusform>meilleur de {n} essai</numerusform>
@@ -19068,6 +19191,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts saved in {name}, {new:.1f} MB were new</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai sauvegardé dans {name}, {new:.1f} Mo nouveaux</numerusform>
+                <numerusform>{n} essais sauvegardés dans {name}, {new:.1f} Mo nouveaux</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts that count</source>
             <translation type="unfinished">
                 <numerusform>{n} essai qui compte</numerusform>
@@ -19173,13 +19303,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
-            <source>{n} packets sent.</source>
-            <translation type="unfinished">
-                <numerusform>{n} paquet envoyé.</numerusform>
-                <numerusform>{n} paquets envoyés.</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
             <source>{n} pairs of attempts</source>
             <translation type="unfinished">
                 <numerusform>{n} paire d’essais</numerusform>
@@ -19222,6 +19345,27 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} statements sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} déclaration envoyée.</numerusform>
+                <numerusform>{n} déclarations envoyées.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} statements wait to be sent.</source>
+            <translation type="unfinished">
+                <numerusform>{n} déclaration attend d’être envoyée.</numerusform>
+                <numerusform>{n} déclarations attendent d’être envoyées.</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} statements wait to be sent: `acus results send`</source>
+            <translation type="unfinished">
+                <numerusform>{n} déclaration attend d’être envoyée : `acus results send`</numerusform>
+                <numerusform>{n} déclarations attendent d’être envoyées : `acus results send`</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} stations wait to be let in: Stations, Exchange … now</source>
             <translation type="unfinished">
                 <numerusform>{n} poste attend d’être admis : Postes, Échanger maintenant…</numerusform>
@@ -19233,6 +19377,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} étudiant {whose}</numerusform>
                 <numerusform>{n} étudiants {whose}</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} visits of studies are due: Sessions, Research studies…</source>
+            <translation type="unfinished">
+                <numerusform>{n} visite d’étude est à faire : Sessions, Études de recherche…</numerusform>
+                <numerusform>{n} visites d’étude sont à faire : Sessions, Études de recherche…</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -19461,6 +19612,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Mot de passe du formateur</translation>
         </message>
         <message>
+            <source>Passphrase of the backups</source>
+            <translation type="unfinished">Phrase secrète des sauvegardes</translation>
+        </message>
+        <message>
             <source>compiling for the first time, up to a minute …</source>
             <translation type="unfinished">première compilation, jusqu’à une minute…</translation>
         </message>
@@ -19599,6 +19754,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">rien ne correspond</translation>
         </message>
         <message>
+            <source>give --pacs NAME, or --web URL and --user NAME with it</source>
+            <translation type="unfinished">indiquez --pacs NOM, ou bien --web URL et --user NOM</translation>
+        </message>
+        <message>
             <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
             <translation type="unfinished">imprimez à 100 %, vérifiez la ligne de 100 mm, découpez, pliez, collez (docs/pen.md)</translation>
         </message>
@@ -19659,6 +19818,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{records:#1 enregistrement écrit|# enregistrements écrits|0 enregistrement écrit} dans {files}</translation>
         </message>
         <message>
+            <source>give --out FILE or --into FOLDER; --encrypt and --with-cts need --into</source>
+            <translation type="unfinished">donnez --out FICHIER ou --into DOSSIER ; --encrypt et --with-cts demandent --into</translation>
+        </message>
+        <message>
+            <source>{records:#1 record|# records} written to {files}, {new_mb:.1f} MB were new</source>
+            <translation type="unfinished">{records:#1 enregistrement écrit|# enregistrements écrits} dans {files}, dont {new_mb:.1f} Mo nouveaux</translation>
+        </message>
+        <message>
             <source>not in it: {}</source>
             <translation type="unfinished">n’y est pas : {}</translation>
         </message>
@@ -19673,6 +19840,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{erased} records left out: their person was erased</source>
             <translation type="unfinished">{erased} enregistrements écartés : leur personne a été effacée</translation>
+        </message>
+        <message>
+            <source>a CT lies in {}: move it to where its exercise names it</source>
+            <translation type="unfinished">un CT se trouve dans {} : déplacez-le là où son exercice le nomme</translation>
         </message>
         <message>
             <source>✖ not taken: {}</source>
@@ -20239,6 +20410,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">D’autres postes</translation>
         </message>
         <message>
+            <source>What was new here has been sent.</source>
+            <translation type="unfinished">Ce qui était nouveau ici a été envoyé.</translation>
+        </message>
+        <message>
             <source>Nothing was waiting to be sent.</source>
             <translation type="unfinished">Rien n’attendait d’être envoyé.</translation>
         </message>
@@ -20261,6 +20436,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Connect to the school's store…</source>
             <translation type="unfinished">Se connecter à la base de l’école…</translation>
+        </message>
+        <message>
+            <source>Tell the record store now</source>
+            <translation type="unfinished">Communiquer au LRS maintenant</translation>
+        </message>
+        <message>
+            <source>Connect to a record store (xAPI)…</source>
+            <translation type="unfinished">Se connecter à un LRS (xAPI)…</translation>
         </message>
         <message>
             <source>This station…</source>
@@ -20379,6 +20562,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">l’objet {digest} de la base de l’école manque ou est endommagé : son administrateur le rétablit depuis une sauvegarde ; le reste a été pris</translation>
         </message>
         <message>
+            <source>there is no such bucket: its administrator makes it</source>
+            <translation type="unfinished">ce bucket n’existe pas : son administrateur le crée</translation>
+        </message>
+        <message>
+            <source>it does not know this key: give that of its administrator</source>
+            <translation type="unfinished">il ne connaît pas cette clé : donnez celle de son administrateur</translation>
+        </message>
+        <message>
+            <source>it takes too long to answer</source>
+            <translation type="unfinished">il met trop de temps à répondre</translation>
+        </message>
+        <message>
             <source>the objects of the school's store cannot be used: this station goes on and tries again ({reason})</source>
             <translation type="unfinished">les objets de la base de l’école sont inutilisables : ce poste continue et réessaie ({reason})</translation>
         </message>
@@ -20479,12 +20674,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">son empreinte, à indiquer avec les résultats : {digest}</translation>
         </message>
         <message>
-            <source>{study}: {files:#1 file|# files} as stated, {scores:#1 score|# scores} computed again</source>
-            <translation type="unfinished">{study} : {files:#1 fichier conforme|# fichiers conformes}, {scores:#1 score recalculé|# scores recalculés}</translation>
+            <source>left out: {}</source>
+            <translation type="unfinished">laissé de côté : {}</translation>
+        </message>
+        <message>
+            <source>{study}: {files:#1 file|# files} as stated; made again: {scores:#1 score|# scores}, {made_again:#1 table or figure|# tables and figures}</source>
+            <translation type="unfinished">{study} : {files:#1 fichier|# fichiers} comme indiqué ; refaits : {scores:#1 score|# scores}, {made_again:#1 tableau ou figure|# tableaux et figures}</translation>
         </message>
         <message>
             <source>digest: {digest}</source>
             <translation type="unfinished">empreinte : {digest}</translation>
+        </message>
+        <message>
+            <source>{}</source>
+            <translation type="unfinished">{}</translation>
         </message>
         <message>
             <source>{name} is {entry:g}: give {least:g} to {most:g}</source>
@@ -20727,6 +20930,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Compétent : échoue dans {acceptable} % des cas au plus, et non dans {unacceptable} % ou plus (LC-CUSUM). De ceux qui ne le sont pas, {false_alarm} % au plus sont dits compétents en {attempts} essais ; de ceux qui le sont, {missed} % au plus ne le sont pas. Essais encore nécessaires : intervalle à 80 %, si les derniers essais continuent de même.</translation>
         </message>
         <message>
+            <source>{mark:g} to pass</source>
+            <translation type="unfinished">{mark:g} pour réussir</translation>
+        </message>
+        <message>
             <source>Acceptable failures</source>
             <translation type="unfinished">Échecs acceptables</translation>
         </message>
@@ -20891,6 +21098,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Étudiants et cours de la sauvegarde à la place de ceux d’ici</translation>
         </message>
         <message>
+            <source>Passphrase of the backup</source>
+            <translation type="unfinished">Phrase secrète de la sauvegarde</translation>
+        </message>
+        <message>
             <source>Restoring a backup</source>
             <translation type="unfinished">Restauration d’une sauvegarde</translation>
         </message>
@@ -20925,6 +21136,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Another file here, which stays: {names}</source>
             <translation type="unfinished">Un autre fichier ici, qui reste : {names}</translation>
+        </message>
+        <message>
+            <source>A CT lies in {folder}: its exercise names another place.</source>
+            <translation type="unfinished">Un CT se trouve dans {folder} : son exercice nomme un autre endroit.</translation>
         </message>
         <message>
             <source>Not taken: {what}</source>
@@ -21159,6 +21374,30 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{file} n’est pas dans l’inventaire</translation>
         </message>
         <message>
+            <source>{file} is not what the tables hold</source>
+            <translation type="unfinished">{file} n’est pas ce que contiennent les tableaux</translation>
+        </message>
+        <message>
+            <source>Parquet was not compared: {reason}</source>
+            <translation type="unfinished">Parquet n’a pas été comparé : {reason}</translation>
+        </message>
+        <message>
+            <source>figures were drawn by matplotlib {there}, here is {here}: not compared</source>
+            <translation type="unfinished">les figures ont été dessinées par matplotlib {there}, ici c’est {here} : non comparées</translation>
+        </message>
+        <message>
+            <source>{file} is not what the tables give</source>
+            <translation type="unfinished">{file} n’est pas ce que donnent les tableaux</translation>
+        </message>
+        <message>
+            <source>figures were not drawn again: {reason}</source>
+            <translation type="unfinished">les figures n’ont pas été redessinées : {reason}</translation>
+        </message>
+        <message>
+            <source>figures cannot be drawn again: {reason}</source>
+            <translation type="unfinished">les figures ne peuvent pas être redessinées : {reason}</translation>
+        </message>
+        <message>
             <source>{file}: {reason}</source>
             <translation type="unfinished">{file} : {reason}</translation>
         </message>
@@ -21389,6 +21628,562 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>it is too large</source>
             <translation type="unfinished">elle est trop grande</translation>
+        </message>
+        <message>
+            <source>Research studies…</source>
+            <translation type="unfinished">Études de recherche…</translation>
+        </message>
+        <message>
+            <source>Looking at the studies</source>
+            <translation type="unfinished">Examen des études</translation>
+        </message>
+        <message>
+            <source>Kept: {title} of {student}, {visit}</source>
+            <translation type="unfinished">Gardé : {title} de {student}, {visit}</translation>
+        </message>
+        <message>
+            <source>{student}, visit {visit}. Nobody is judged by this.</source>
+            <translation type="unfinished">{student}, visite {visit}. Personne n’est jugé là-dessus.</translation>
+        </message>
+        <message>
+            <source>Without an answer: {items}.</source>
+            <translation type="unfinished">Sans réponse : {items}.</translation>
+        </message>
+        <message>
+            <source>The answers are not kept yet. Cancel once more to leave without them.</source>
+            <translation type="unfinished">Les réponses ne sont pas encore gardées. Annuler encore une fois pour partir sans elles.</translation>
+        </message>
+        <message>
+            <source>nothing in this program takes --{option}</source>
+            <translation type="unfinished">rien dans ce programme ne prend --{option}</translation>
+        </message>
+        <message>
+            <source>--{option} is of no use without a link: {protocols}</source>
+            <translation type="unfinished">--{option} ne sert à rien sans liaison : {protocols}</translation>
+        </message>
+        <message>
+            <source>--{name} {port!r} is no port: 0 to 65535</source>
+            <translation type="unfinished">--{name} {port!r} n’est pas un port : 0 à 65535</translation>
+        </message>
+        <message>
+            <source>{link} at {address}</source>
+            <translation type="unfinished">{link} sur {address}</translation>
+        </message>
+        <message>
+            <source>peers of the links need the token {token}</source>
+            <translation type="unfinished">les correspondants des liaisons ont besoin du jeton {token}</translation>
+        </message>
+        <message>
+            <source>the token of the links has {length} characters; at least {least} are needed</source>
+            <translation type="unfinished">le jeton des liaisons a {length} caractères ; il en faut au moins {least}</translation>
+        </message>
+        <message>
+            <source>--links-allow {address!r} is no address and no network; valid are 10.0.0.7, 10.0.0.0/24, fd00::/64, with commas between</source>
+            <translation type="unfinished">--links-allow {address!r} n’est ni une adresse ni un réseau ; sont valides 10.0.0.7, 10.0.0.0/24, fd00::/64, séparés par des virgules</translation>
+        </message>
+        <message>
+            <source>{title}: port {port} is not 0 to 65535</source>
+            <translation type="unfinished">{title} : le port {port} n’est pas entre 0 et 65535</translation>
+        </message>
+        <message>
+            <source>{title} cannot listen at {host} port {port}: {reason}; close the other program, or choose another port</source>
+            <translation type="unfinished">{title} ne peut pas écouter sur {host} port {port} : {reason} ; fermez l’autre programme ou choisissez un autre port</translation>
+        </message>
+        <message>
+            <source>{title}: {host} is no address here</source>
+            <translation type="unfinished">{title} : {host} n’est pas une adresse ici</translation>
+        </message>
+        <message>
+            <source>{title}: the host {host!r} is not known; give a name or an address of this computer</source>
+            <translation type="unfinished">{title} : l’hôte {host!r} est inconnu ; donnez un nom ou une adresse de cet ordinateur</translation>
+        </message>
+        <message>
+            <source>there is no channel {channel}</source>
+            <translation type="unfinished">il n’y a pas de canal {channel}</translation>
+        </message>
+        <message>
+            <source>there are 64 subscriptions already</source>
+            <translation type="unfinished">il y a déjà 64 abonnements</translation>
+        </message>
+        <message>
+            <source>{operation!r} is not known; there are subscribe and unsubscribe</source>
+            <translation type="unfinished">{operation!r} est inconnu ; il y a subscribe et unsubscribe</translation>
+        </message>
+        <message>
+            <source>OpenIGTLink has no token: to listen at {host}, name who may come in, --links-allow 10.0.0.7 or a network, 10.0.0.0/24</source>
+            <translation type="unfinished">OpenIGTLink n’a pas de jeton : pour écouter sur {host}, nommez qui peut entrer, --links-allow 10.0.0.7 ou un réseau, 10.0.0.0/24</translation>
+        </message>
+        <message>
+            <source>it sends more than {most} messages a second</source>
+            <translation type="unfinished">il envoie plus de {most} messages par seconde</translation>
+        </message>
+        <message>
+            <source>igtl:{address} is no address of an OpenIGTLink server; valid are igtl:HOST, igtl:HOST:PORT and igtl:[::1]:PORT</source>
+            <translation type="unfinished">igtl:{address} n’est pas l’adresse d’un serveur OpenIGTLink ; sont valides igtl:HOST, igtl:HOST:PORT et igtl:[::1]:PORT</translation>
+        </message>
+        <message>
+            <source>TRANSFORM announces {size} bytes</source>
+            <translation type="unfinished">TRANSFORM annonce {size} octets</translation>
+        </message>
+        <message>
+            <source>it begins with {first_bytes}, which is no header of version 1 to 3</source>
+            <translation type="unfinished">il commence par {first_bytes}, qui n’est pas un en-tête de version 1 à 3</translation>
+        </message>
+        <message>
+            <source>type or device name {raw} is no text</source>
+            <translation type="unfinished">le type ou le nom d’appareil {raw} n’est pas un texte</translation>
+        </message>
+        <message>
+            <source>a message has no type</source>
+            <translation type="unfinished">un message n’a pas de type</translation>
+        </message>
+        <message>
+            <source>{kind} announces {size} bytes; at most {largest} are taken</source>
+            <translation type="unfinished">{kind} annonce {size} octets ; au plus {largest} sont acceptés</translation>
+        </message>
+        <message>
+            <source>{kind} of {device}: its CRC is wrong</source>
+            <translation type="unfinished">{kind} de {device} : son CRC est faux</translation>
+        </message>
+        <message>
+            <source>{kind} of {device}: extended header or metadata do not fit its {size} bytes</source>
+            <translation type="unfinished">{kind} de {device} : l’en-tête étendu ou les métadonnées ne tiennent pas dans ses {size} octets</translation>
+        </message>
+        <message>
+            <source>TRANSFORM {device} has {size} bytes; 48 are a matrix</source>
+            <translation type="unfinished">TRANSFORM {device} a {size} octets ; 48 font une matrice</translation>
+        </message>
+        <message>
+            <source>TRANSFORM {device} is refused: {why}</source>
+            <translation type="unfinished">TRANSFORM {device} est refusé : {why}</translation>
+        </message>
+        <message>
+            <source>a value of it is not finite</source>
+            <translation type="unfinished">une de ses valeurs n’est pas finie</translation>
+        </message>
+        <message>
+            <source>a value of it is {size:.3g}</source>
+            <translation type="unfinished">une de ses valeurs est {size:.3g}</translation>
+        </message>
+        <message>
+            <source>it scales by {x:.4g}, {y:.4g}, {z:.4g}</source>
+            <translation type="unfinished">elle change l’échelle de {x:.4g}, {y:.4g}, {z:.4g}</translation>
+        </message>
+        <message>
+            <source>it is left-handed</source>
+            <translation type="unfinished">elle est indirecte (main gauche)</translation>
+        </message>
+        <message>
+            <source>it is no rotation: its axes are not at right angles</source>
+            <translation type="unfinished">ce n’est pas une rotation : ses axes ne sont pas perpendiculaires</translation>
+        </message>
+        <message>
+            <source>op {operation!r} is not known; there are {known}</source>
+            <translation type="unfinished">op {operation!r} est inconnu ; il y a {known}</translation>
+        </message>
+        <message>
+            <source>topic {topic!r} is not known; there are {known}</source>
+            <translation type="unfinished">le topic {topic!r} est inconnu ; il y a {known}</translation>
+        </message>
+        <message>
+            <source>throttle_rate {throttle!r} is not 0 to 3600000 ms</source>
+            <translation type="unfinished">throttle_rate {throttle!r} n’est pas entre 0 et 3600000 ms</translation>
+        </message>
+        <message>
+            <source>there are {most} subscriptions already</source>
+            <translation type="unfinished">il y a déjà {most} abonnements</translation>
+        </message>
+        <message>
+            <source>nobody here listens to {topic!r}; {image_points} takes a plan</source>
+            <translation type="unfinished">personne n’écoute {topic!r} ici ; {image_points} prend un plan</translation>
+        </message>
+        <message>
+            <source>a message of {topic} has the field data</source>
+            <translation type="unfinished">un message de {topic} a le champ data</translation>
+        </message>
+        <message>
+            <source>the plan is refused: {reason}</source>
+            <translation type="unfinished">le plan est refusé : {reason}</translation>
+        </message>
+        <message>
+            <source>service {service!r} is not known; there are {known}</source>
+            <translation type="unfinished">le service {service!r} est inconnu ; il y a {known}</translation>
+        </message>
+        <message>
+            <source>{topic} has type {expected}, not {other!r}</source>
+            <translation type="unfinished">{topic} est de type {expected}, pas {other!r}</translation>
+        </message>
+        <message>
+            <source>this is no JSON: {error}</source>
+            <translation type="unfinished">ce n’est pas du JSON : {error}</translation>
+        </message>
+        <message>
+            <source>this is no CBOR: {error}</source>
+            <translation type="unfinished">ce n’est pas du CBOR : {error}</translation>
+        </message>
+        <message>
+            <source>a message is a mapping with `op`</source>
+            <translation type="unfinished">un message est un dictionnaire avec `op`</translation>
+        </message>
+        <message>
+            <source>{name} is not {size} numbers, metres in the frame patient</source>
+            <translation type="unfinished">{name} n’est pas {size} nombres, en mètres dans le repère patient</translation>
+        </message>
+        <message>
+            <source>{name} has a number beyond {farthest:g} m: metres are expected</source>
+            <translation type="unfinished">{name} a un nombre au-delà de {farthest:g} m : des mètres sont attendus</translation>
+        </message>
+        <message>
+            <source>{operation} needs {name}, a text</source>
+            <translation type="unfinished">{operation} a besoin de {name}, un texte</translation>
+        </message>
+        <message>
+            <source>the service needs {names}</source>
+            <translation type="unfinished">le service a besoin de {names}</translation>
+        </message>
+        <message>
+            <source>{folder} is there already; name a new folder for the bag</source>
+            <translation type="unfinished">{folder} existe déjà ; nommez un nouveau dossier pour le bag</translation>
+        </message>
+        <message>
+            <source>the record {record} holds no samples</source>
+            <translation type="unfinished">l’enregistrement {record} ne contient pas d’échantillons</translation>
+        </message>
+        <message>
+            <source>the bag {folder} cannot be written: {reason}</source>
+            <translation type="unfinished">le bag {folder} ne peut pas être écrit : {reason}</translation>
+        </message>
+        <message>
+            <source>{name} has {size} items, not {wanted}</source>
+            <translation type="unfinished">{name} a {size} éléments, pas {wanted}</translation>
+        </message>
+        <message>
+            <source>A plan of a live link is refused: {why}</source>
+            <translation type="unfinished">Un plan d’une liaison en direct est refusé : {why}</translation>
+        </message>
+        <message>
+            <source>A live link has set entry and target.</source>
+            <translation type="unfinished">Une liaison en direct a fixé l’entrée et la cible.</translation>
+        </message>
+        <message>
+            <source>nobody yet</source>
+            <translation type="unfinished">personne encore</translation>
+        </message>
+        <message>
+            <source>{peers} · {rate:.0f}/s</source>
+            <translation type="unfinished">{peers} · {rate:.0f}/s</translation>
+        </message>
+        <message>
+            <source>Programs that are connected, and messages a second. It listens at {address}.</source>
+            <translation type="unfinished">Programmes connectés et messages par seconde. À l’écoute sur {address}.</translation>
+        </message>
+        <message>
+            <source>no structures: no SEG, and the structure set has the points alone</source>
+            <translation type="unfinished">aucune structure : pas de SEG, et le jeu de structures ne contient que les points</translation>
+        </message>
+        <message>
+            <source>nothing measured where the tip ended: it is in no object</source>
+            <translation type="unfinished">rien n’a mesuré où la pointe s’est arrêtée : elle n’est dans aucun objet</translation>
+        </message>
+        <message>
+            <source>the built-in patient's CT is in {folder}</source>
+            <translation type="unfinished">le scanner du patient intégré est dans {folder}</translation>
+        </message>
+        <message>
+            <source>{files}: {structures:#1 structure|# structures}</source>
+            <translation type="unfinished">{files} : {structures:#1 structure|# structures}</translation>
+        </message>
+        <message>
+            <source>{objects:#1 object|# objects} sent to {to}</source>
+            <translation type="unfinished">{objects:#1 objet envoyé|# objets envoyés} à {to}</translation>
+        </message>
+        <message>
+            <source>note  {}</source>
+            <translation type="unfinished">note  {}</translation>
+        </message>
+        <message>
+            <source>this station has the exercise of the attempt no more: give the folder of its CT by --ct</source>
+            <translation type="unfinished">ce poste n’a plus l’exercice de l’essai : donner le dossier de son scanner par --ct</translation>
+        </message>
+        <message>
+            <source>the hand is wanted at {place}: give finite values</source>
+            <translation type="unfinished">la main est voulue en {place} : donner des valeurs finies</translation>
+        </message>
+        <message>
+            <source>the address holds a user: give name and password apart, where no list of addresses shows them</source>
+            <translation type="unfinished">l’adresse contient un utilisateur : donner nom et mot de passe à part, là où aucune liste d’adresses ne les montre</translation>
+        </message>
+        <message>
+            <source>{address!r} is no address: give one such as https://server.school.example/path</source>
+            <translation type="unfinished">{address!r} n’est pas une adresse : en donner une telle que https://server.school.example/path</translation>
+        </message>
+        <message>
+            <source>{host} would be told by plain http, which everybody on the way can read: give an address that begins with https</source>
+            <translation type="unfinished">{host} l’apprendrait par http en clair, que chacun peut lire en chemin : donner une adresse qui commence par https</translation>
+        </message>
+        <message>
+            <source>{id} was not ended ({state}): it has no result</source>
+            <translation type="unfinished">{id} n’a pas été terminé ({state}) : il n’a pas de résultat</translation>
+        </message>
+        <message>
+            <source>{id} was made on another CT ({pseudonym}): give its folder by --ct</source>
+            <translation type="unfinished">{id} a été fait sur un autre scanner ({pseudonym}) : donner son dossier par --ct</translation>
+        </message>
+        <message>
+            <source>{id} does not say when it began: its objects have no date</source>
+            <translation type="unfinished">{id} ne dit pas quand il a commencé : ses objets n’ont pas de date</translation>
+        </message>
+        <message>
+            <source>{name} does not answer, or cannot now: it was not connected; look at the address and at the network, and try again</source>
+            <translation type="unfinished">{name} ne répond pas, ou ne le peut pas pour l’instant : il n’a pas été connecté ; vérifiez l’adresse et le réseau, puis réessayez</translation>
+        </message>
+        <message>
+            <source>{name} shows a certificate that is not trusted ({reason}): nothing was sent; ask who runs it, or name its authority by SSL_CERT_FILE</source>
+            <translation type="unfinished">{name} montre un certificat qui n’est pas approuvé ({reason}) : rien n’a été envoyé ; demander à qui l’administre, ou nommer son autorité par SSL_CERT_FILE</translation>
+        </message>
+        <message>
+            <source>{name} does not answer, or not to the end, within {seconds:g} s: nothing is lost, it is sent later</source>
+            <translation type="unfinished">{name} ne répond pas, ou pas jusqu’au bout, en {seconds:g} s : rien n’est perdu, ce sera envoyé plus tard</translation>
+        </message>
+        <message>
+            <source>{name} does not let {user!r} in ({status}): give name and password again, `acus results lrs URL`</source>
+            <translation type="unfinished">{name} ne laisse pas entrer {user!r} ({status}) : redonner nom et mot de passe, `acus results lrs URL`</translation>
+        </message>
+        <message>
+            <source>{name} sends on to {other}: it was not followed; if the record store is there, give that address</source>
+            <translation type="unfinished">{name} renvoie à {other} : cela n’a pas été suivi ; si le LRS est là, donner cette adresse</translation>
+        </message>
+        <message>
+            <source>{name} cannot take statements now ({status}): nothing is lost, it is sent later</source>
+            <translation type="unfinished">{name} ne peut pas prendre de déclarations maintenant ({status}) : rien n’est perdu, ce sera envoyé plus tard</translation>
+        </message>
+        <message>
+            <source>what answers at {endpoint} is no record store ({status}): give the address that stands before /statements</source>
+            <translation type="unfinished">ce qui répond à {endpoint} n’est pas un LRS ({status}) : donner l’adresse qui précède /statements</translation>
+        </message>
+        <message>
+            <source>{name} does not say which statements it took: nothing is lost, it is sent later; if that stays so, its address is not a record store's</source>
+            <translation type="unfinished">{name} ne dit pas quelles déclarations il a prises : rien n’est perdu, ce sera envoyé plus tard ; si cela dure, son adresse n’est pas celle d’un LRS</translation>
+        </message>
+        <message>
+            <source>{name} has another statement by the id {id}: this one stays here; ask who runs the record store to void that one</source>
+            <translation type="unfinished">{name} a une autre déclaration sous l’identifiant {id} : celle-ci reste ici ; demander à qui administre le LRS d’annuler l’autre</translation>
+        </message>
+        <message>
+            <source>{name} says that it has {id}, and does not show it: it stays here; ask who runs the record store</source>
+            <translation type="unfinished">{name} dit avoir {id} et ne le montre pas : il reste ici ; demander à qui administre le LRS</translation>
+        </message>
+        <message>
+            <source>{name} refuses {id} ({status} {said}): it stays here; ask who runs the record store</source>
+            <translation type="unfinished">{name} refuse {id} ({status} {said}) : il reste ici ; demander à qui administre le LRS</translation>
+        </message>
+        <message>
+            <source>record store: {fault}</source>
+            <translation type="unfinished">LRS : {fault}</translation>
+        </message>
+        <message>
+            <source>{path} does not say where the record store is: give it again, `acus results lrs URL --home ADDRESS`</source>
+            <translation type="unfinished">{path} ne dit pas où est le LRS : le redonner, `acus results lrs URL --home ADDRESS`</translation>
+        </message>
+        <message>
+            <source>there is no folder {folder}</source>
+            <translation type="unfinished">le dossier {folder} n’existe pas</translation>
+        </message>
+        <message>
+            <source>{folder} holds no DICOM objects: give the folder that `acus session export ID --dicom FOLDER` has written</source>
+            <translation type="unfinished">{folder} ne contient aucun objet DICOM : indiquez le dossier écrit par `acus session export ID --dicom FOLDER`</translation>
+        </message>
+        <message>
+            <source>{file} is not an object of an attempt: nothing was sent</source>
+            <translation type="unfinished">{file} n’est pas un objet d’un essai : rien n’a été envoyé</translation>
+        </message>
+        <message>
+            <source>{name} takes no objects of the kind of {file} ({kind}): its administrator can allow them; {taken} of {count} were taken</source>
+            <translation type="unfinished">{name} ne prend pas d’objets du genre de {file} ({kind}) : son administrateur peut les permettre ; {taken} sur {count} ont été pris</translation>
+        </message>
+        <message>
+            <source>{name} refused {file}: {refusal}; {taken} of {count} were taken, and can be sent again</source>
+            <translation type="unfinished">{name} a refusé {file} : {refusal} ; {taken} sur {count} ont été pris et peuvent être renvoyés</translation>
+        </message>
+        <message>
+            <source>{name} was gone, or silent for {seconds:g} s, when {file} was sent: {taken} of {count} were taken; send them again, it keeps each once</source>
+            <translation type="unfinished">{name} avait disparu, ou s’est tu {seconds:g} s, quand {file} a été envoyé : {taken} sur {count} ont été pris ; les renvoyer, chacun est gardé une fois</translation>
+        </message>
+        <message>
+            <source>archive: {fault}</source>
+            <translation type="unfinished">archive : {fault}</translation>
+        </message>
+        <message>
+            <source>{name} does not answer, or not to the end, within {seconds:g} s: send it again, what it has taken is kept once</source>
+            <translation type="unfinished">{name} ne répond pas, ou pas jusqu’au bout, en {seconds:g} s : renvoyer, ce qu’il a pris est gardé une fois</translation>
+        </message>
+        <message>
+            <source>{name} does not let {user!r} in ({status}): give name and password again</source>
+            <translation type="unfinished">{name} ne laisse pas entrer {user!r} ({status}) : redonner nom et mot de passe</translation>
+        </message>
+        <message>
+            <source>{name} sends on to {other}: it was not followed; if the archive is there, give that address</source>
+            <translation type="unfinished">{name} renvoie à {other} : cela n’a pas été suivi ; si l’archive est là, donner cette adresse</translation>
+        </message>
+        <message>
+            <source>{name} took {taken} of {count} objects ({status}{reasons}): ask who runs it, and send them again</source>
+            <translation type="unfinished">{name} a pris {taken} objets sur {count} ({status}{reasons}) : demander à qui l’administre et les renvoyer</translation>
+        </message>
+        <message>
+            <source>this CT is not slice for slice that of DICOM files (it was resampled, or comes from another format): objects can refer to none of its pictures</source>
+            <translation type="unfinished">ce scanner n’est pas coupe pour coupe celui de fichiers DICOM (il a été rééchantillonné ou vient d’un autre format) : des objets ne peuvent se référer à aucune de ses images</translation>
+        </message>
+        <message>
+            <source>{folder} cannot be written: {reason}</source>
+            <translation type="unfinished">{folder} ne peut pas être écrit : {reason}</translation>
+        </message>
+        <message>
+            <source>this CT lacks what {name} has to repeat of it ({lacking})</source>
+            <translation type="unfinished">il manque à ce scanner ce que {name} doit en répéter ({lacking})</translation>
+        </message>
+        <message>
+            <source>this CT was not de-identified, and objects that refer to it would name its patient: import it first (`acus ct import`), and give the library's folder</source>
+            <translation type="unfinished">ce scanner n’a pas été dé-identifié, et des objets qui s’y réfèrent nommeraient son patient : l’importer d’abord (`acus ct import`) et donner le dossier de la bibliothèque</translation>
+        </message>
+        <message>
+            <source>the plan of this attempt meets no slice of this CT</source>
+            <translation type="unfinished">le plan de cet essai ne rencontre aucune coupe de ce scanner</translation>
+        </message>
+        <message>
+            <source>Record store</source>
+            <translation type="unfinished">LRS</translation>
+        </message>
+        <message>
+            <source>Telling the record store</source>
+            <translation type="unfinished">Communication au LRS</translation>
+        </message>
+        <message>
+            <source>A learning record store (LRS) is told who, by pseudonym, passed which exercise, with the score. Its address stands before /statements; empty: nothing is told. Ids begin with an address that you own.</source>
+            <translation type="unfinished">Un LRS (learning record store) apprend qui, sous pseudonyme, a réussi quel exercice et avec quel score. Son adresse précède /statements ; vide : rien n’est communiqué. Les identifiants commencent par une adresse qui vous appartient.</translation>
+        </message>
+        <message>
+            <source>Address</source>
+            <translation type="unfinished">Adresse</translation>
+        </message>
+        <message>
+            <source>Ids begin with</source>
+            <translation type="unfinished">Les identifiants commencent par</translation>
+        </message>
+        <message>
+            <source>User</source>
+            <translation type="unfinished">Utilisateur</translation>
+        </message>
+        <message>
+            <source>Asking the record store</source>
+            <translation type="unfinished">Le LRS est interrogé</translation>
+        </message>
+        <message>
+            <source>Record store: told at {time}</source>
+            <translation type="unfinished">LRS : informé à {time}</translation>
+        </message>
+        <message>
+            <source>the board conforms: {kept} rules kept, {unseen} not seen</source>
+            <translation type="unfinished">la carte est conforme : {kept} règles respectées, {unseen} non vues</translation>
+        </message>
+        <message>
+            <source>the board does not conform: {broken} rules broken, {kept} kept, {unseen} not seen</source>
+            <translation type="unfinished">la carte n’est pas conforme : {broken} règles enfreintes, {kept} respectées, {unseen} non vues</translation>
+        </message>
+        <message>
+            <source>the profile {profile} speaks {protocol}; what can be held against docs/protocol.md is Acus' own protocol</source>
+            <translation type="unfinished">le profil {profile} parle {protocol} ; seul le protocole propre d’Acus peut être comparé à docs/protocol.md</translation>
+        </message>
+        <message>
+            <source>the board reports error {board_error}, {meaning}; then test again</source>
+            <translation type="unfinished">la carte signale l’erreur {board_error}, {meaning} ; refaites ensuite le test</translation>
+        </message>
+        <message>
+            <source>the robot of the board {serial} is homed, and this test homes it anew wherever it stands: switch the board off and on, test it, and home it then</source>
+            <translation type="unfinished">le robot de la carte {serial} est référencé, et ce test le référence à nouveau là où il se trouve : éteignez et rallumez la carte, testez-la, puis référencez-le</translation>
+        </message>
+        <message>
+            <source>{source} is encrypted, and that is not its passphrase: type it again</source>
+            <translation type="unfinished">{source} est chiffrée, et ce n’est pas sa phrase secrète : tapez-la de nouveau</translation>
+        </message>
+        <message>
+            <source>it is not what was written</source>
+            <translation type="unfinished">ce n’est pas ce qui a été écrit</translation>
+        </message>
+        <message>
+            <source>its piece {name} is missing</source>
+            <translation type="unfinished">son morceau {name} manque</translation>
+        </message>
+        <message>
+            <source>its piece {name} is not what was written: delete it, and back up again while the file is still here</source>
+            <translation type="unfinished">son morceau {name} n’est pas ce qui a été écrit : supprimez-le, et sauvegardez de nouveau tant que le fichier est encore ici</translation>
+        </message>
+        <message>
+            <source>{source} is encrypted: give its passphrase</source>
+            <translation type="unfinished">{source} est chiffrée : donnez sa phrase secrète</translation>
+        </message>
+        <message>
+            <source>{name} has a piece without a name</source>
+            <translation type="unfinished">{name} a un morceau sans nom</translation>
+        </message>
+        <message>
+            <source>{folder} holds no backup ({suffix}): give the folder that `acus store backup` was given</source>
+            <translation type="unfinished">{folder} ne contient aucune sauvegarde ({suffix}) : donnez le dossier qui a été donné à `acus store backup`</translation>
+        </message>
+        <message>
+            <source>{fault}; the backup before it is {earlier}</source>
+            <translation type="unfinished">{fault} ; la sauvegarde précédente est {earlier}</translation>
+        </message>
+        <message>
+            <source>the backups in {folder} are encrypted: give their passphrase</source>
+            <translation type="unfinished">les sauvegardes dans {folder} sont chiffrées : donnez leur phrase secrète</translation>
+        </message>
+        <message>
+            <source>the backups in {folder} are not encrypted: choose another folder for encrypted ones</source>
+            <translation type="unfinished">les sauvegardes dans {folder} ne sont pas chiffrées : choisissez un autre dossier pour des sauvegardes chiffrées</translation>
+        </message>
+        <message>
+            <source>its format is {kind!r}</source>
+            <translation type="unfinished">son format est {kind!r}</translation>
+        </message>
+        <message>
+            <source>it is not whole</source>
+            <translation type="unfinished">elle est incomplète</translation>
+        </message>
+        <message>
+            <source>{source} is no backup of Acus, or damaged: {fault}; give another one</source>
+            <translation type="unfinished">{source} n’est pas une sauvegarde d’Acus, ou est endommagée : {fault} ; indiquez-en une autre</translation>
+        </message>
+        <message>
+            <source>Back up into a folder</source>
+            <translation type="unfinished">Sauvegarder dans un dossier</translation>
+        </message>
+        <message>
+            <source>The first backup in {name}; later ones there write only what is new. It holds names: without its passphrase an encrypted one cannot be read again.</source>
+            <translation type="unfinished">La première sauvegarde dans {name} ; les suivantes n’y écrivent que ce qui est nouveau. Elle contient des noms : sans sa phrase secrète, une sauvegarde chiffrée ne peut plus être lue.</translation>
+        </message>
+        <message>
+            <source>What is new since the last backup in {name} is added. It holds names.</source>
+            <translation type="unfinished">Ce qui est nouveau depuis la dernière sauvegarde dans {name} est ajouté. Elle contient des noms.</translation>
+        </message>
+        <message>
+            <source>The backups there are not encrypted.</source>
+            <translation type="unfinished">Les sauvegardes qui s'y trouvent ne sont pas chiffrées.</translation>
+        </message>
+        <message>
+            <source>The CTs of own exercises too</source>
+            <translation type="unfinished">Aussi les scanners des exercices propres</translation>
+        </message>
+        <message>
+            <source>the two passphrases are not the same: type them again</source>
+            <translation type="unfinished">les deux phrases secrètes ne sont pas identiques : saisissez-les à nouveau</translation>
+        </message>
+        <message>
+            <source>Passphrase</source>
+            <translation type="unfinished">Phrase secrète</translation>
+        </message>
+        <message>
+            <source>Passphrase (empty: not encrypted)</source>
+            <translation type="unfinished">Phrase secrète (vide : non chiffrée)</translation>
         </message>
     </context>
 </TS>

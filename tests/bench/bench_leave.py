@@ -29,7 +29,8 @@ from app.session.index import Indexed
 from app.session.people import Person
 from app.session.statement_queue import StatementQueue
 from app.session.summary import Summary
-from app.views.people.group_report import ReportFacts, group_report
+from app.views.people.group_report import group_report
+from app.views.people.report_facts import ReportFacts
 from app.views.people.results_report import write_report
 from tests.bench.in_turn import compare
 

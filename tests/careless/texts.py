@@ -20,8 +20,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.views.slices.words import Overlay
-
 SLACK_PX = 1
 ELIDED = "…"
 
@@ -43,8 +41,6 @@ def cut_texts(window: QWidget) -> list[str]:
 
 
 def _cut(widget: QWidget) -> str:
-    if isinstance(widget, Overlay):
-        return _overlay(widget)
     if isinstance(widget, QLabel):
         return _label(widget)
     if isinstance(widget, QComboBox):
@@ -103,16 +99,6 @@ def _combo(combo: QComboBox) -> str:
     if combo.toolTip() and combo.currentText() in combo.toolTip():
         return ""
     return _line(combo, combo.currentText(), room.width())
-
-
-def _overlay(overlay: Overlay) -> str:
-    parent = overlay.parentWidget()
-    if parent is None or parent.rect().contains(overlay.geometry()):
-        return ""
-    box = overlay.geometry()
-    place = f"{box.x()},{box.y()} {box.width()}x{box.height()}"
-    pane = f"{parent.width()}x{parent.height()}"
-    return f"{' '.join(overlay.text().split())!r} at {place} beyond its pane of {pane}"
 
 
 def _said(text: str, width: float, height: float, room: int, tall: int) -> str:

@@ -140,7 +140,8 @@ def test_a_feature_of_a_folder_stands_behind_the_one_that_it_names(foreign):
     path = write(foreign / "features" / "claw.py", text)
     base = tuple(one for one in FEATURES if one.__module__.startswith("app.views."))
     found = feature_plugins.with_plugins(base)
-    assert found[-1].__name__ == "ClawFeature"
+    names = [one.__name__ for one in found]
+    assert names.index("ClawFeature") == names.index("PeopleFeature") + 1
     assert set(FEATURES) < set(found)
     assert feature_plugins.page_of_plugin("somebody_s_claw.features.claw") == "claw.md"
     assert feature_plugins.page_of_plugin("app.views.plan.feature") == ""
