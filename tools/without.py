@@ -65,6 +65,7 @@ PARTS: Final[Mapping[str, Part]] = {
             *("resources/exercises/tensegrity-liver.yaml", "tools/exact/tensegrity.py"),
             *("tools/holder_pictures.py", "tests/tensegrity_rig.py", "tests/**/*tensegrity*.py"),
             *("tests/hard/test_hard_holder.py", "tests/bench/bench_holder.py"),
+            "app/exchange/mjcf/tensegrity.py",
         ),
         words=("tensegrity",),
         tests=("tests/hard/test_hard_references.py",),

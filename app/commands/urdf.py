@@ -1,4 +1,4 @@
-"""`acus urdf`: a device profile as URDF, and a profile with the lengths of a URDF."""
+"""`acus urdf`: a device profile as URDF or MJCF, and a profile with the lengths of a URDF."""
 
 from pathlib import Path
 from typing import Annotated
@@ -8,7 +8,7 @@ import typer
 from app.commands.answer import Answer, Commands
 from app.core.messages import sentence
 
-app = Commands(help="Device profiles to and from URDF.")
+app = Commands(help="Device profiles to and from URDF, and to MJCF.")
 
 
 RANK = 170
@@ -29,10 +29,22 @@ def export(
 ) -> Answer:
     """Write a profile as URDF. The loop is cut at the right arm's end."""
     from app.core.errors import ConfigurationError
+    from app.exchange import mjcf
     from app.exchange.text_export import write_text
     from app.exchange.urdf import Origin, write_urdf
-    from app.mechanisms.pantograph.profile import load_pantograph
+    from app.mechanisms.pantograph.profile import as_pantograph
+    from app.mechanisms.profile import load_profile
 
+    device = load_profile(profile)
+    if device.kind in mjcf.kinds():
+        raise ConfigurationError(
+            sentence(
+                "device {name} is of kind {kind}, whose loops and cables no URDF can hold; use"
+                " `acus urdf mjcf`",
+                name=device.name,
+                kind=device.kind,
+            )
+        )
     try:
         where = Origin(origin)
     except ValueError:
@@ -40,9 +52,25 @@ def export(
         raise ConfigurationError(
             sentence("--origin {origin!r}; valid names: {names}", origin=origin, names=names)
         ) from None
-    write_text(out, write_urdf(load_pantograph(profile), where))
+    write_text(out, write_urdf(as_pantograph(device), where))
     place = where.value.replace("-", " ")
     return Answer({"files": [out]}, [f"{out}: {profile}, world at the {place}"])
+
+
+@app.command("mjcf")
+def write_mjcf(
+    out: Annotated[Path, typer.Option(metavar="FILE", help="MJCF to write.")],
+    profile: Annotated[str, typer.Option(help="Device profile: name or file.")],
+) -> Answer:
+    """Write a profile as MJCF, for MuJoCo: loops and cables, which URDF cannot hold."""
+    from app.exchange import mjcf
+    from app.exchange.text_export import write_text
+    from app.mechanisms.profile import load_profile
+
+    text = mjcf.write_mjcf(load_profile(profile))
+    write_text(out, text)
+    cables = text.count("<spatial ")
+    return Answer({"files": [out], "cables": cables}, [f"{out}: {profile}, {cables} cables"])
 
 
 @app.command("import")

@@ -1332,6 +1332,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">{files}: von der Welt (Roboter) zum Patienten (LPS)</translation>
         </message>
         <message>
+            <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
+            <translation>Gerät {name} ist von der Art {kind}, deren Schleifen und Seile kein URDF fassen kann; verwenden Sie `acus urdf mjcf`</translation>
+        </message>
+        <message>
             <source>--origin {origin!r}; valid names: {names}</source>
             <translation type="unfinished">--origin {origin!r}; gültige Namen: {names}</translation>
         </message>
@@ -22184,6 +22188,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Passphrase (empty: not encrypted)</source>
             <translation type="unfinished">Passphrase (leer: unverschlüsselt)</translation>
+        </message>
+        <message>
+            <source>device {name} is of kind {kind}; MJCF is written for kind {kinds} alone</source>
+            <translation>Gerät {name} ist von der Art {kind}; MJCF wird nur für die Art {kinds} geschrieben</translation>
         </message>
     </context>
 </TS>

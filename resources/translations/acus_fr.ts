@@ -1332,6 +1332,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">{files} : du monde (robot) au patient (LPS)</translation>
         </message>
         <message>
+            <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
+            <translation>l’appareil {name} est du type {kind}, dont les boucles et les câbles ne tiennent dans aucun URDF ; utilisez `acus urdf mjcf`</translation>
+        </message>
+        <message>
             <source>--origin {origin!r}; valid names: {names}</source>
             <translation type="unfinished">--origin {origin!r} ; noms valides : {names}</translation>
         </message>
@@ -22184,6 +22188,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Passphrase (empty: not encrypted)</source>
             <translation type="unfinished">Phrase secrète (vide : non chiffrée)</translation>
+        </message>
+        <message>
+            <source>device {name} is of kind {kind}; MJCF is written for kind {kinds} alone</source>
+            <translation>l’appareil {name} est du type {kind} ; le MJCF n’est écrit que pour le type {kinds}</translation>
         </message>
     </context>
 </TS>
