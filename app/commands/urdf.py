@@ -62,7 +62,7 @@ def write_mjcf(
     out: Annotated[Path, typer.Option(metavar="FILE", help="MJCF to write.")],
     profile: Annotated[str, typer.Option(help="Device profile: name or file.")],
 ) -> Answer:
-    """Write a profile as MJCF, for MuJoCo: loops and cables, which URDF cannot hold."""
+    """Write a profile as MJCF, with its loops and cables."""
     from app.exchange import mjcf
     from app.exchange.text_export import write_text
     from app.mechanisms.profile import load_profile

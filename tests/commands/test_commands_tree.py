@@ -141,6 +141,7 @@ EXAMPLES = {
     "store stations": (),
     "store status": (),
     "study": ("list",),
+    "arm urdf": ("--out", "arm.urdf"),
     "urdf export": ("--out", "robot.urdf"),
 }
 

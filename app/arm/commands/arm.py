@@ -21,7 +21,7 @@ def urdf(
     out: Annotated[Path, typer.Option(metavar="FILE", help="URDF to write.")],
     arm: Annotated[str, typer.Option(help="Arm profile: name or file.")] = "iiwa14",
 ) -> Answer:
-    """Write an arm as URDF: links, limits and masses, where it stands and what it holds."""
+    """Write an arm as URDF, where it stands and with what it holds."""
     from app.arm.mechanics import load_arm, published_arm
     from app.arm.mechanics.urdf import write_arm_urdf
     from app.exchange.text_export import write_text
