@@ -30,6 +30,7 @@ SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstance
 
 
 PASSWORD = "ACUS_DICOMWEB_PASSWORD"
+_WAYS = {"get": "C-GET", "move": "C-MOVE", "web": "DICOMweb"}
 RANK = 50
 
 
@@ -46,10 +47,10 @@ def list_servers() -> Answer:
     servers = configured()
     lines = [
         f"{one.name}  {one.title} at {one.host}:{one.port}, as {one.own_title}, "
-        f"C-{one.retrieve.upper()}, waits {one.timeout_s:g} s{', TLS' if one.tls else ''}"
+        f"{_WAYS[one.retrieve]}, waits {one.timeout_s:g} s{', TLS' if one.tls else ''}"
         for one in servers
     ]
-    facts = {"servers": [one.model_dump() for one in servers]}
+    facts = {"servers": [one.shown() for one in servers]}
     none = sentence("none; `acus pacs add NAME` writes {file}", file=pacs_path())
     return Answer(facts, lines or [none])
 
@@ -57,8 +58,8 @@ def list_servers() -> Answer:
 @app.command()
 def add(
     name: Annotated[str, typer.Argument(help="What to call it here.")],
-    host: Annotated[str, typer.Option(help="Name or address.")],
-    title: Annotated[str, typer.Option(help="Its AE title.")],
+    host: Annotated[str, typer.Option(help="Name or address.")] = "",
+    title: Annotated[str, typer.Option(help="Its AE title.")] = "",
     port: Annotated[int, typer.Option(help="Its DICOM port.")] = 104,
     own_title: Annotated[str, typer.Option(help="AE title of Acus.")] = "ACUS",
     own_host: Annotated[
@@ -78,8 +79,16 @@ def add(
     tls_any_name: Annotated[
         bool, typer.Option("--tls-any-name", help="Its certificate may name another host.")
     ] = False,
+    web: Annotated[
+        str, typer.Option(metavar="URL", help="Of an archive that speaks DICOMweb.")
+    ] = "",
+    user: Annotated[str, typer.Option(help="With --web: name that it gave you.")] = "",
 ) -> Answer:
-    """Configure a PACS, or change the one of that name."""
+    """Configure a PACS, or change the one of that name.
+
+    By --host and --title, or by --web. With --user the password is asked for, or stands in
+    ACUS_DICOMWEB_PASSWORD.
+    """
     from app.core.configuration import parse
     from app.imaging.pacs.settings import PacsSettings, configured, keep
 
@@ -95,6 +104,14 @@ def add(
         "retrieve": retrieve,
         "timeout_s": timeout_s,
     }
+    if user and not web:
+        raise typer.BadParameter(sentence("give --user with --web"))
+    if web:
+        password = web_password() if user else ""
+        given |= {"web": {"url": web, "user": user, "password": password}, "retrieve": "web"}
+        given["port"] = None if port == 104 else port
+    elif not (host and title):
+        raise typer.BadParameter(sentence("give --host and --title, or --web"))
     if tls or tls_authority or tls_certificate or tls_key or tls_any_name:
         files = (tls_authority, tls_certificate, tls_key)
         given["tls"] = dict(
@@ -105,7 +122,7 @@ def add(
     words = sentence(
         "{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there", name=name
     )
-    return Answer({"servers": [each.model_dump() for each in configured()]}, [words])
+    return Answer({"servers": [each.shown() for each in configured()]}, [words])
 
 
 @app.command()
@@ -115,18 +132,18 @@ def remove(name: Annotated[str, typer.Argument(help="Which.")]) -> Answer:
 
     gone = chosen(name)
     keep(tuple(one for one in configured() if one != gone))
-    facts = {"servers": [each.model_dump() for each in configured()]}
+    facts = {"servers": [each.shown() for each in configured()]}
     return Answer(facts, [sentence("{name} is forgotten", name=name)])
 
 
 @app.command()
 def echo(pacs: Server = None) -> Answer:
-    """Ask a PACS whether it is there (C-ECHO)."""
-    from app.imaging.pacs.client import Pacs
+    """Ask a PACS whether it is there (C-ECHO, or by the web)."""
+    from app.imaging.pacs.archive import archive_of
     from app.imaging.pacs.settings import chosen
 
     settings = chosen(pacs)
-    seconds = Pacs(settings).echo()
+    seconds = archive_of(settings).echo()
     words = sentence("{name} answers in {time:.1f} ms", name=settings.name, time=1e3 * seconds)
     return Answer({"name": settings.name, "seconds": seconds}, [words])
 
@@ -142,16 +159,16 @@ def find(
     names: Annotated[bool, typer.Option("--names", help="Show who the patients are.")] = False,
     pacs: Server = None,
 ) -> Answer:
-    """Find studies and their series (C-FIND). Who the patients are is shown only with --names.
+    """Find studies and their series (C-FIND, QIDO-RS).
 
-    The JSON never has names, identifiers or descriptions.
+    Who the patients are is shown only with --names. The JSON never has names, identifiers or descriptions.
     """
-    from app.imaging.pacs.client import Pacs
+    from app.imaging.pacs.archive import archive_of
     from app.imaging.pacs.query import Query
     from app.imaging.pacs.settings import chosen
 
     query = Query(patient_id, name, date, accession, modality, study)
-    client = Pacs(chosen(pacs))
+    client = archive_of(chosen(pacs))
     studies = client.find_studies(query)
     found = [series for one in studies for series in client.find_series(one, modality)]
     lines = [_line(one, names) for one in found]
@@ -168,7 +185,10 @@ def get(
     mask: Mask = None,
     remedy: Mend = None,
 ) -> Answer:
-    """Take a series into the library (C-GET), de-identified. Repeated, it fetches the rest."""
+    """Take a series into the library (C-GET, WADO-RS), de-identified.
+
+    Repeated, it fetches the rest.
+    """
     return _take(study, series, pacs, "get", mask, remedy)
 
 
@@ -198,22 +218,28 @@ def send(
     With --user the password is asked for, or stands in ACUS_DICOMWEB_PASSWORD.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.commands.doors import instructor, secret
+    from app.commands.doors import instructor
     from app.imaging.pacs.settings import chosen
     from app.imaging.pacs.storing import own_objects, store
-    from app.imaging.pacs.stow import WebArchive, stow
+    from app.imaging.pacs.stow import stow
+    from app.imaging.pacs.web import WebArchive
+    from app.imaging.pacs.web_client import web_archive
 
     if (web and pacs) or (user and not web):
         raise typer.BadParameter(sentence("give --pacs NAME, or --web URL and --user NAME with it"))
     instructor()
     files = own_objects(folder)
     if web:
-        given = os.environ.get(PASSWORD, "") if user else ""
-        archive = WebArchive(web, user, given or (secret(sentence("Password")) if user else ""))
+        archive = WebArchive(web, user, web_password() if user else "")
         name, count = archive.name, with_progress(lambda part: stow(archive, files, part))
     else:
         settings = chosen(pacs)
-        name, count = settings.name, with_progress(lambda part: store(settings, files, part))
+        name = settings.name
+        if settings.retrieve == "web":
+            known = web_archive(settings)
+            count = with_progress(lambda part: stow(known, files, part))
+        else:
+            count = with_progress(lambda part: store(settings, files, part))
     words = template("{objects:#1 object|# objects} sent to {to}")
     return Answer({"to": name, "objects": count}, shown=words)
 
@@ -229,17 +255,28 @@ def _take(
     from app.commands.calibrate_parts import with_progress
     from app.commands.ct import boxes_of, imported_answer, remedy_of
     from app.imaging.library import CtLibrary
-    from app.imaging.pacs.client import Pacs
+    from app.imaging.pacs.archive import archive_of
     from app.imaging.pacs.settings import chosen
     from app.imaging.pacs.taking import take
 
     boxes, asked = boxes_of(mask), remedy_of(remedy)
-    settings: PacsSettings = chosen(name).model_copy(update={"retrieve": way})
+    settings: PacsSettings = chosen(name)
+    if settings.retrieve != "web":
+        settings = settings.model_copy(update={"retrieve": way})
+    elif way == "move":
+        raise typer.BadParameter(sentence("DICOMweb has no C-MOVE; use `acus pacs get`"))
 
     def work(progress: "Progress") -> "Imported":
-        return take(Pacs(settings), study, series, CtLibrary(), progress, boxes, asked)
+        return take(archive_of(settings), study, series, CtLibrary(), progress, boxes, asked)
 
     return imported_answer(with_progress(work))
+
+
+def web_password() -> str:
+    """Return the password of an archive by the web: a variable's, or asked for."""
+    from app.commands.doors import secret
+
+    return os.environ.get(PASSWORD, "") or secret(sentence("Password"))
 
 
 def _whole(file: str) -> str:

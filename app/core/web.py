@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import socket
 import ssl
+import time
 from base64 import b64encode
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from http.client import HTTPConnection, HTTPSConnection, IncompleteRead
+from http.client import HTTPConnection, HTTPResponse, HTTPSConnection, IncompleteRead
 from ipaddress import ip_address
-from threading import Timer
-from typing import Final
+from threading import Event, Thread
+from typing import BinaryIO, Final
 from urllib.parse import urlsplit
 
 from app.core.messages import sentence
@@ -25,6 +26,8 @@ _LARGEST: Final = 1 << 22
 """No answer is read farther than this [bytes]."""
 
 _SAID: Final = 120
+_PIECE: Final = 1 << 16
+_LOOK_S: Final = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +93,13 @@ def basic(user: str, password: str) -> dict[str, str]:
 
 
 def exchange(
-    method: str, address: str, headers: Mapping[str, str], body: bytes | None, seconds: float
+    method: str,
+    address: str,
+    headers: Mapping[str, str],
+    body: bytes | None,
+    seconds: float,
+    over: Callable[[], bool] | None = None,
+    context: ssl.SSLContext | None = None,
 ) -> WebAnswer:
     """Send a request and read its answer whole.
 
@@ -100,40 +109,123 @@ def exchange(
         headers: beside host and length.
         body: what is sent.
         seconds: that all of it may take, once connected.
+        over: asked a few times a second; where it says so, the connection is cut.
+        context: of the encryption; the system's where left out.
 
     Raises:
         ssl.SSLCertVerificationError: if the server's certificate is not trusted.
         OSError, http.client.HTTPException: if there is no answer in time, or not all of it.
     """
+    end = time.monotonic() + seconds
+
+    def late() -> bool:  # a server may also send a byte now and then
+        return time.monotonic() > end or (over is not None and over())
+
+    with _answer(method, address, headers, body, seconds, late, context) as answer:
+        return _whole(answer)
+
+
+def download(
+    address: str,
+    headers: Mapping[str, str],
+    file: BinaryIO,
+    seconds: float,
+    over: Callable[[], bool],
+    count: Callable[[int], None],
+    context: ssl.SSLContext | None = None,
+) -> WebAnswer:
+    """Ask for what may be large; write what comes with status 200 to a file, piece by piece.
+
+    The answer has no body then; with another status it has, and nothing is written.
+
+    Args:
+        address: with its query.
+        headers: beside host.
+        file: to which is written.
+        seconds: longest silence.
+        over: asked a few times a second; where it says so, the connection is cut.
+        count: called with the size of each piece [bytes].
+        context: of the encryption; the system's where left out.
+
+    Raises:
+        ssl.SSLCertVerificationError: if the server's certificate is not trusted.
+        OSError, http.client.HTTPException: if there is no answer, or not all of it.
+    """
+    with _answer("GET", address, headers, None, seconds, over, context) as answer:
+        if answer.status != 200:
+            return _whole(answer)
+        while piece := answer.read(_PIECE):
+            file.write(piece)
+            count(len(piece))
+        if answer.length:
+            raise IncompleteRead(b"")  # cut off
+        return WebAnswer(answer.status, dict(answer.headers), b"")
+
+
+@contextmanager
+def _answer(
+    method: str,
+    address: str,
+    headers: Mapping[str, str],
+    body: bytes | None,
+    seconds: float,
+    over: Callable[[], bool],
+    context: ssl.SSLContext | None,
+) -> Iterator[HTTPResponse]:
     parts = urlsplit(address)
     host = parts.hostname or ""
     connection: HTTPConnection
     if parts.scheme == "https":
-        context = ssl.create_default_context()
+        context = context or ssl.create_default_context()
         connection = HTTPSConnection(host, parts.port, timeout=seconds, context=context)
     else:
         connection = HTTPConnection(host, parts.port, timeout=seconds)
     path = (parts.path or "/") + (f"?{parts.query}" if parts.query else "")
-    guard = Timer(seconds, _cut, (connection,))  # a server may also send a byte now and then
-    guard.daemon = True
+    done, cut, opened = Event(), Event(), list[socket.socket]()
+    asked = (connection, opened, done, cut, over)
+    guard = Thread(target=_guard, args=asked, name="acus web", daemon=True)
     try:
         guard.start()
+        connection.connect()
+        if connection.sock is not None:
+            opened.append(connection.sock)
         connection.request(method, path, body, dict(headers))
-        answer = connection.getresponse()
-        raw = answer.read(_LARGEST + 1)
-        if len(raw) > _LARGEST or answer.length:
-            raise IncompleteRead(raw)  # too long, or cut off
-        return WebAnswer(answer.status, dict(answer.headers), raw)
+        with connection.getresponse() as answer:
+            yield answer
+        if cut.is_set():  # what was read may look whole
+            raise ConnectionAbortedError("cut")
     finally:
-        guard.cancel()
+        done.set()
+        guard.join()
         connection.close()
 
 
-def _cut(connection: HTTPConnection) -> None:
-    """End a request whose time is over."""
-    if connection.sock is not None:
-        with suppress(OSError):
-            connection.sock.shutdown(socket.SHUT_RDWR)
+def _whole(answer: HTTPResponse) -> WebAnswer:
+    raw = answer.read(_LARGEST + 1)
+    if len(raw) > _LARGEST or answer.length:
+        raise IncompleteRead(raw)  # too long, or cut off
+    return WebAnswer(answer.status, dict(answer.headers), raw)
+
+
+def _guard(
+    connection: HTTPConnection,
+    opened: list[socket.socket],
+    done: Event,
+    cut: Event,
+    over: Callable[[], bool],
+) -> None:
+    """End a request whose time is over, whatever it waits for.
+
+    The connection forgets its socket when the answer has none to follow, and the answer reads on.
+    """
+    while not done.wait(_LOOK_S):
+        if over():
+            cut.set()
+            for sock in (*opened, connection.sock):
+                if sock is not None:
+                    with suppress(OSError):
+                        sock.shutdown(socket.SHUT_RDWR)
+            return
 
 
 def _is_this_computer(host: str) -> bool:

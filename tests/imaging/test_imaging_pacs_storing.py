@@ -29,7 +29,8 @@ from app.imaging.pacs.errors import PacsDataError, PacsRefusedError, PacsUnreach
 from app.imaging.pacs.query import Query
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.pacs.storing import store
-from app.imaging.pacs.stow import WebArchive, stow
+from app.imaging.pacs.stow import stow
+from app.imaging.pacs.web import WebArchive
 
 KINDS = (SegmentationStorage, RTStructureSetStorage, Comprehensive3DSRStorage,
          GrayscaleSoftcopyPresentationStateStorage)  # fmt: skip

@@ -2,11 +2,11 @@
 
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import closing, suppress
+from contextlib import closing
 from typing import Any
 
 from app.core.messages import sentence
-from app.core.progress import Cancelled, Progress
+from app.core.progress import Progress
 from app.imaging.pacs import statuses
 from app.imaging.pacs.association import association, lost, network, receiving, require
 from app.imaging.pacs.errors import PacsDataError, PacsError
@@ -16,6 +16,7 @@ from app.imaging.pacs.incoming import (
     PLAIN,
     STORAGE_CLASSES,
     Incoming,
+    PictureCounter,
     handler,
 )
 from app.imaging.pacs.limits import RequestLimits
@@ -150,20 +151,22 @@ class Pacs:
         if listed and not missing:
             return
         part = () if len(missing) == len(listed) else missing
-        counter = _Counter(progress.part(0.05, 1.0), len(listed), incoming)
+        counter = PictureCounter(progress.part(0.05, 1.0), len(listed), incoming)
         keys = wanted_keys(study_uid, series_uid, part)
         fetch = self._move if self._moves() else self._get
         try:
             failed = fetch(keys, counter, limits)
         except PacsError:
-            self._require_right(incoming)  # what was wrong says more than that it was ended
+            incoming.require_right(
+                self.settings.name
+            )  # what was wrong says more than that it was ended
             raise
         self._check(listed, incoming, failed, tuple(limits.strangers))
 
     def _moves(self) -> bool:
         return self.settings.retrieve == "move"
 
-    def _get(self, keys: Any, counter: "_Counter", limits: RequestLimits) -> int:
+    def _get(self, keys: Any, counter: PictureCounter, limits: RequestLimits) -> int:
         pynetdicom = network()
         contexts: list[tuple[str, Sequence[str]]] = [(_GET, ())]
         contexts += [(kind, PLAIN) for kind in STORAGE_CLASSES]
@@ -174,7 +177,7 @@ class Pacs:
         with association(*asked) as linked:
             return self._follow(linked.send_c_get(keys, _GET), linked, counter)
 
-    def _move(self, keys: Any, counter: "_Counter", limits: RequestLimits) -> int:
+    def _move(self, keys: Any, counter: PictureCounter, limits: RequestLimits) -> int:
         asked = (self.settings, [(_MOVE, ())], counter.progress)
         with (
             receiving(self.settings, counter.incoming, counter, limits),
@@ -183,7 +186,7 @@ class Pacs:
             own = self.settings.own_title
             return self._follow(linked.send_c_move(keys, own, _MOVE), linked, counter)
 
-    def _follow(self, answers: Any, linked: Any, counter: "_Counter") -> int:
+    def _follow(self, answers: Any, linked: Any, counter: PictureCounter) -> int:
         """Read the answers of a retrieval; returns how many pictures the PACS failed to send."""
         for status, _ in answers:
             code = require(linked, status, self.settings, "sending the pictures")
@@ -198,21 +201,11 @@ class Pacs:
                 return int(status.get("NumberOfFailedSuboperations", 0) or 0)
         raise lost(self.settings, sentence("sending the pictures"))
 
-    def _require_right(self, incoming: Incoming) -> None:
-        if incoming.problems:
-            raise PacsDataError(
-                sentence(
-                    "{settings_name}: {problem}; nothing was taken into the library",
-                    settings_name=self.settings.name,
-                    problem=incoming.problems[0],
-                )
-            ) from None
-
     def _check(
         self, listed: tuple[str, ...], incoming: Incoming, failed: int, strangers: tuple[str, ...]
     ) -> None:
         name = self.settings.name
-        self._require_right(incoming)
+        incoming.require_right(self.settings.name)
         refused = ""
         if strangers:
             refused = (
@@ -252,25 +245,3 @@ class Pacs:
                         )
                     )
                 yield answer
-
-
-class _Counter:
-    """Progress of a retrieval, counted in pictures."""
-
-    def __init__(self, progress: Progress, total: int, incoming: Incoming) -> None:
-        self.progress, self.incoming, self._total = progress, incoming, total
-        self._done = incoming.count()
-
-    def arrived(self) -> None:
-        """Count one more picture; a cancel is met by the watcher, not here."""
-        self._done += 1
-        share = self._done / self._total if self._total else 0.5
-        with suppress(Cancelled):  # the network library would swallow it: the watcher acts on it
-            self.progress.report(
-                min(share, 1.0),
-                sentence(
-                    "{ready} of {total} pictures received", ready=self._done, total=self._total
-                )
-                if self._total
-                else sentence("{ready} pictures received", ready=self._done),
-            )

@@ -10,6 +10,7 @@ import shutil
 import threading
 import time
 from collections.abc import Collection
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +19,9 @@ import pydicom
 from app.core import paths
 from app.core.files import sync
 from app.core.messages import sentence
-from app.core.progress import Progress
+from app.core.progress import Cancelled, Progress
 from app.imaging.errors import FileDamagedError, WorkerError
+from app.imaging.pacs.errors import PacsDataError
 from app.imaging.pacs.limits import LARGEST_PICTURE, SPARE_BYTES, SPOOLED, RequestLimits
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.privacy.key import derived, installation_key
@@ -140,6 +142,24 @@ class Incoming:
                 self.problems.append(problem)
         return status
 
+    def require_right(self, sender: str) -> None:
+        """Do nothing where all that came was right.
+
+        Args:
+            sender: name of the archive, for the message.
+
+        Raises:
+            PacsDataError: saying what was wrong.
+        """
+        if self.problems:
+            raise PacsDataError(
+                sentence(
+                    "{settings_name}: {problem}; nothing was taken into the library",
+                    settings_name=sender,
+                    problem=self.problems[0],
+                )
+            ) from None
+
     def forget(self) -> None:
         """Delete everything that has come; idempotent."""
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -214,6 +234,34 @@ class Incoming:
 
     def _path(self, sop_uid: str) -> Path:
         return self.folder / f"{derived(self._key, 'instance', sop_uid).hex()[:24]}.dcm"
+
+
+class PictureCounter:
+    """Progress of a retrieval, counted in pictures.
+
+    Args:
+        progress: told.
+        total: pictures of the series; 0 where nobody knows.
+        incoming: takes them.
+    """
+
+    def __init__(self, progress: Progress, total: int, incoming: Incoming) -> None:
+        self.progress, self.incoming, self._total = progress, incoming, total
+        self._done = incoming.count()
+
+    def arrived(self) -> None:
+        """Count one more picture; a cancel is met by whoever waits for pictures, not here."""
+        self._done += 1
+        share = self._done / self._total if self._total else 0.5
+        with suppress(Cancelled):  # the network library would swallow it: the watcher acts on it
+            self.progress.report(
+                min(share, 1.0),
+                sentence(
+                    "{ready} of {total} pictures received", ready=self._done, total=self._total
+                )
+                if self._total
+                else sentence("{ready} pictures received", ready=self._done),
+            )
 
 
 def sweep(now: float | None = None) -> int:

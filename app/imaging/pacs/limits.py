@@ -109,6 +109,14 @@ class RequestLimits:
             return True
         return self._ended or bool(self.problem)
 
+    def check(self) -> None:
+        """Raise where whoever asked has cancelled.
+
+        Raises:
+            Cancelled: then.
+        """
+        self._progress.check()
+
     def bind(self, event: Any) -> None:
         """Read a connection that was just opened within these limits (a handler of pynetdicom)."""
         linked = event.assoc

@@ -2,15 +2,17 @@
 
 from pathlib import Path
 from typing import Annotated, Any, Literal
+from urllib.parse import urlsplit
 
 import yaml
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.core.messages import sentence
+from app.core.web import fault_of_address
 
 Port = Annotated[int, Field(ge=1, le=65535)]
 Host = Annotated[str, Field(min_length=1, max_length=253)]
@@ -33,6 +35,26 @@ class TlsSettings(Strict):
     check_name: bool = True
 
 
+class WebSettings(Strict):
+    """Where an archive speaks DICOMweb (PS3.18), and as whom.
+
+    Attributes:
+        url: of the service, before `/studies`; https, but on this computer.
+        user: name that it knows us by; empty where it asks for none.
+        password: that goes with it; in no message, no list and no JSON.
+    """
+
+    url: Annotated[str, Field(max_length=500)]
+    user: Annotated[str, Field(max_length=200)] = ""
+    password: Annotated[str, Field(max_length=500, repr=False)] = ""
+
+    @model_validator(mode="after")
+    def _can_be_asked(self) -> "WebSettings":
+        if fault := fault_of_address(self.url):
+            raise ValueError(fault)
+        return self
+
+
 class PacsSettings(Strict):
     """One PACS.
 
@@ -48,8 +70,9 @@ class PacsSettings(Strict):
         senders: names or addresses beside `host` that C-MOVE's pictures may come from.
         timeout_s: longest silence that is borne [s]; a request as a whole may take four of them,
             and more for what comes.
-        retrieve: `get` over the same connection, or `move` to `own_port`.
-        tls: encryption; none where absent.
+        retrieve: `get` over the same connection, `move` to `own_port`, or `web` by DICOMweb.
+        tls: encryption; none where absent, and the system's for DICOMweb.
+        web: where and as whom with `web`; host, port and title follow from it if left out.
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,32}$")]
@@ -61,8 +84,39 @@ class PacsSettings(Strict):
     own_port: Port = 11112
     senders: Annotated[tuple[Host, ...], Field(max_length=32)] = ()
     timeout_s: Annotated[float, Field(gt=0.0, le=600.0)] = 30.0
-    retrieve: Literal["get", "move"] = "get"
+    retrieve: Literal["get", "move", "web"] = "get"
     tls: TlsSettings | None = None
+    web: WebSettings | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_address(cls, values: Any) -> Any:
+        web = values.get("web") if isinstance(values, dict) else None
+        if not isinstance(web, dict):
+            return values
+        try:
+            parts = urlsplit(str(web.get("url", "")))
+            port = parts.port or (443 if parts.scheme == "https" else 80)
+        except ValueError:
+            return values
+        follow = {"host": parts.hostname or "?", "port": port, "title": "DICOMWEB"}
+        own = {name: value for name, value in values.items() if value or name not in follow}
+        return follow | own
+
+    @model_validator(mode="after")
+    def _way(self) -> "PacsSettings":
+        if self.retrieve == "web" and self.web is None:
+            raise ValueError(
+                sentence("retrieve is web: say where by web: {{url: https://…}}, or use get")
+            )
+        return self
+
+    def shown(self) -> dict[str, Any]:
+        """Return the settings for lists and JSON: all but the password."""
+        document = self.model_dump(mode="json")
+        if self.web is not None:
+            del document["web"]["password"]
+        return document
 
 
 class PacsList(Strict):
@@ -118,6 +172,7 @@ def keep(servers: tuple[PacsSettings, ...]) -> None:
     """Write the configuration."""
     document = {"servers": [_written(server) for server in servers]}
     write_atomically(pacs_path(), yaml.safe_dump(document, sort_keys=False))
+    pacs_path().chmod(0o600)  # it may hold a password
 
 
 def _written(server: PacsSettings) -> dict[str, Any]:

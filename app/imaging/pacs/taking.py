@@ -7,7 +7,7 @@ from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, SeriesRefusedError
 from app.imaging.library import CtLibrary, Imported, ImportFailedError
-from app.imaging.pacs.client import Pacs
+from app.imaging.pacs.archive import Archive
 from app.imaging.pacs.errors import PacsDataError
 from app.imaging.pacs.incoming import Incoming
 from app.imaging.privacy.burned_in import MaskBox
@@ -39,7 +39,7 @@ class Fetched:
 
 
 def fetch(
-    pacs: Pacs,
+    pacs: Archive,
     study_uid: str,
     series_uid: str,
     progress: Progress,
@@ -145,7 +145,7 @@ def keep(
 
 
 def take(
-    pacs: Pacs,
+    pacs: Archive,
     study_uid: str,
     series_uid: str,
     library: CtLibrary,

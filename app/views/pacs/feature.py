@@ -92,9 +92,9 @@ class PacsImport(QObject):
 
 def _fetch(settings: PacsSettings, series: FoundSeries, progress: Progress) -> Fetched:
     with ONE_AT_A_TIME:
-        from app.imaging.pacs.client import Pacs
+        from app.imaging.pacs.archive import archive_of
         from app.imaging.pacs.taking import fetch
-    return fetch(Pacs(settings), series.study.uid, series.uid, progress, remedy=None)
+    return fetch(archive_of(settings), series.study.uid, series.uid, progress, remedy=None)
 
 
 class PacsFeature(Feature):

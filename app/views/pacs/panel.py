@@ -216,9 +216,9 @@ class PacsPanel(QDialog):
 
 def _find(settings: PacsSettings, query: Query, progress: Progress) -> list[Found]:
     with ONE_AT_A_TIME:
-        from app.imaging.pacs.client import Pacs
+        from app.imaging.pacs.archive import archive_of
         from app.imaging.pacs.incoming import Incoming
-    client = Pacs(settings)
+    client = archive_of(settings)
     found: list[FoundSeries] = []
     studies = client.find_studies(query, progress.part(0.0, 0.2))
     for index, study in enumerate(studies):

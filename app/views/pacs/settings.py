@@ -410,5 +410,5 @@ def _parsed(form: dict[str, object]) -> PacsSettings:
 
 def _echo(settings: PacsSettings, progress: Progress) -> float:
     with ONE_AT_A_TIME:
-        from app.imaging.pacs.client import Pacs
-    return Pacs(settings).echo(progress)
+        from app.imaging.pacs.archive import archive_of
+    return archive_of(settings).echo(progress)
