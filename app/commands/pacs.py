@@ -161,7 +161,8 @@ def find(
 ) -> Answer:
     """Find studies and their series (C-FIND, QIDO-RS).
 
-    Who the patients are is shown only with --names. The JSON never has names, identifiers or descriptions.
+    Who the patients are is shown only with --names. The JSON never has names, identifiers or
+    descriptions.
     """
     from app.imaging.pacs.archive import archive_of
     from app.imaging.pacs.query import Query

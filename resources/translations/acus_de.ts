@@ -3612,6 +3612,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">sagen Sie, wonach gesucht wird: ein Patient, ein Datum, eine Accession-Nummer oder eine Studie; eine Liste von allem wären Tausende von Patienten</translation>
         </message>
         <message>
+            <source>retrieve is web: say where by web: {{url: https://…}}, or use get</source>
+            <translation>retrieve ist web: geben Sie mit web: {{url: https://…}} an, wo, oder nehmen Sie get</translation>
+        </message>
+        <message>
             <source>no PACS is configured; acus pacs add NAME --host HOST --port PORT --title AE writes {pacs_path}</source>
             <translation type="unfinished">es ist kein PACS eingerichtet; acus pacs add NAME --host HOST --port PORT --title AE schreibt {pacs_path}</translation>
         </message>
@@ -14401,6 +14405,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">C-MOVE: es verbindet sich mit uns</translation>
         </message>
         <message>
+            <source>DICOMweb: by https</source>
+            <translation>DICOMweb: über https</translation>
+        </message>
+        <message>
             <source>Encrypted connection (TLS)</source>
             <translation type="unfinished">Verschlüsselte Verbindung (TLS)</translation>
         </message>
@@ -14443,6 +14451,22 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Retrieve by</source>
             <translation type="unfinished">Abrufen mit</translation>
+        </message>
+        <message>
+            <source>Web address</source>
+            <translation>Webadresse</translation>
+        </message>
+        <message>
+            <source>https://…/dicom-web, before /studies</source>
+            <translation>https://…/dicom-web, vor /studies</translation>
+        </message>
+        <message>
+            <source>name that the archive gave you; may stay empty</source>
+            <translation>Name, den Ihnen das Archiv gab; darf leer bleiben</translation>
+        </message>
+        <message>
+            <source>kept in a file that only you can read</source>
+            <translation>in einer Datei verwahrt, die nur Sie lesen können</translation>
         </message>
         <message>
             <source>Own address</source>
@@ -14513,8 +14537,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Hinzufügen</translation>
         </message>
         <message>
-            <source>Test (C-ECHO)</source>
-            <translation type="unfinished">Testen (C-ECHO)</translation>
+            <source>Test</source>
+            <translation>Prüfen</translation>
         </message>
         <message>
             <source>Asking {name}…</source>
@@ -19742,6 +19766,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">keiner; `acus pacs add NAME` schreibt {file}</translation>
         </message>
         <message>
+            <source>give --user with --web</source>
+            <translation>geben Sie --user zusammen mit --web an</translation>
+        </message>
+        <message>
+            <source>give --host and --title, or --web</source>
+            <translation>geben Sie --host und --title an, oder --web</translation>
+        </message>
+        <message>
             <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
             <translation type="unfinished">{name} ist eingerichtet; `acus pacs echo --pacs {name}` fragt, ob es erreichbar ist</translation>
         </message>
@@ -19760,6 +19792,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>give --pacs NAME, or --web URL and --user NAME with it</source>
             <translation type="unfinished">entweder --pacs NAME angeben, oder --web URL und dazu --user NAME</translation>
+        </message>
+        <message>
+            <source>DICOMweb has no C-MOVE; use `acus pacs get`</source>
+            <translation>DICOMweb kennt kein C-MOVE; verwenden Sie `acus pacs get`</translation>
         </message>
         <message>
             <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
@@ -22018,8 +22054,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Archiv: {fault}</translation>
         </message>
         <message>
-            <source>{name} does not answer, or not to the end, within {seconds:g} s: send it again, what it has taken is kept once</source>
-            <translation type="unfinished">{name} antwortet innerhalb von {seconds:g} s nicht oder nicht bis zum Ende: nochmals senden, was angenommen wurde, wird einmal behalten</translation>
+            <source>{name} does not answer, or not to the end, within {seconds:g} s: try again, what has been taken is kept once</source>
+            <translation>{name} antwortet nicht oder nicht bis zum Ende innerhalb von {seconds:g} s: versuchen Sie es noch einmal, was angenommen wurde, bleibt einmal erhalten</translation>
         </message>
         <message>
             <source>{name} does not let {user!r} in ({status}): give name and password again</source>
@@ -22192,6 +22228,34 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>device {name} is of kind {kind}; MJCF is written for kind {kinds} alone</source>
             <translation>Gerät {name} ist von der Art {kind}; MJCF wird nur für die Art {kinds} geschrieben</translation>
+        </message>
+        <message>
+            <source>{name} lists more than {most_pictures} pictures</source>
+            <translation>{name} führt mehr als {most_pictures} Bilder auf</translation>
+        </message>
+        <message>
+            <source>it sent a picture that is too large</source>
+            <translation>es hat ein zu großes Bild gesendet</translation>
+        </message>
+        <message>
+            <source>it sent something else than one picture for one picture</source>
+            <translation>es hat etwas anderes als ein Bild für ein Bild gesendet</translation>
+        </message>
+        <message>
+            <source>{name} does not answer as an archive by the web: its address must be the one before /studies</source>
+            <translation>{name} antwortet nicht wie ein Archiv im Web: die Adresse muss die vor /studies sein</translation>
+        </message>
+        <message>
+            <source>{name} refuses with {status}; try again, and ask who runs it if it stays</source>
+            <translation>{name} lehnt mit {status} ab; versuchen Sie es noch einmal, und fragen Sie den Betreiber, wenn es so bleibt</translation>
+        </message>
+        <message>
+            <source>{name}: {uid!r} is no UID of DICOM</source>
+            <translation>{name}: {uid!r} ist keine UID von DICOM</translation>
+        </message>
+        <message>
+            <source>PACS {name} has no web address: `acus pacs add {name} --web https://…`</source>
+            <translation>Das PACS {name} hat keine Webadresse: `acus pacs add {name} --web https://…`</translation>
         </message>
     </context>
 </TS>

@@ -3612,6 +3612,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">dites quoi chercher : un patient, une date, un numéro d’accession ou un examen ; une liste de tout ferait des milliers de patients</translation>
         </message>
         <message>
+            <source>retrieve is web: say where by web: {{url: https://…}}, or use get</source>
+            <translation>retrieve vaut web : indiquez où par web : {{url: https://…}}, ou utilisez get</translation>
+        </message>
+        <message>
             <source>no PACS is configured; acus pacs add NAME --host HOST --port PORT --title AE writes {pacs_path}</source>
             <translation type="unfinished">aucun PACS n’est configuré ; acus pacs add NAME --host HOST --port PORT --title AE écrit {pacs_path}</translation>
         </message>
@@ -14401,6 +14405,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">C-MOVE : il se connecte à nous</translation>
         </message>
         <message>
+            <source>DICOMweb: by https</source>
+            <translation>DICOMweb : par https</translation>
+        </message>
+        <message>
             <source>Encrypted connection (TLS)</source>
             <translation type="unfinished">Connexion chiffrée (TLS)</translation>
         </message>
@@ -14443,6 +14451,22 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Retrieve by</source>
             <translation type="unfinished">Récupérer par</translation>
+        </message>
+        <message>
+            <source>Web address</source>
+            <translation>Adresse web</translation>
+        </message>
+        <message>
+            <source>https://…/dicom-web, before /studies</source>
+            <translation>https://…/dicom-web, avant /studies</translation>
+        </message>
+        <message>
+            <source>name that the archive gave you; may stay empty</source>
+            <translation>nom que l’archive vous a donné ; peut rester vide</translation>
+        </message>
+        <message>
+            <source>kept in a file that only you can read</source>
+            <translation>gardé dans un fichier que vous seul pouvez lire</translation>
         </message>
         <message>
             <source>Own address</source>
@@ -14513,8 +14537,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Ajouter</translation>
         </message>
         <message>
-            <source>Test (C-ECHO)</source>
-            <translation type="unfinished">Tester (C-ECHO)</translation>
+            <source>Test</source>
+            <translation>Tester</translation>
         </message>
         <message>
             <source>Asking {name}…</source>
@@ -19742,6 +19766,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">aucun ; `acus pacs add NAME` écrit {file}</translation>
         </message>
         <message>
+            <source>give --user with --web</source>
+            <translation>donnez --user avec --web</translation>
+        </message>
+        <message>
+            <source>give --host and --title, or --web</source>
+            <translation>donnez --host et --title, ou --web</translation>
+        </message>
+        <message>
             <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
             <translation type="unfinished">{name} est configuré ; `acus pacs echo --pacs {name}` demande s’il répond</translation>
         </message>
@@ -19760,6 +19792,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>give --pacs NAME, or --web URL and --user NAME with it</source>
             <translation type="unfinished">indiquez --pacs NOM, ou bien --web URL et --user NOM</translation>
+        </message>
+        <message>
+            <source>DICOMweb has no C-MOVE; use `acus pacs get`</source>
+            <translation>DICOMweb n’a pas de C-MOVE ; utilisez `acus pacs get`</translation>
         </message>
         <message>
             <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
@@ -22018,8 +22054,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">archive : {fault}</translation>
         </message>
         <message>
-            <source>{name} does not answer, or not to the end, within {seconds:g} s: send it again, what it has taken is kept once</source>
-            <translation type="unfinished">{name} ne répond pas, ou pas jusqu’au bout, en {seconds:g} s : renvoyer, ce qu’il a pris est gardé une fois</translation>
+            <source>{name} does not answer, or not to the end, within {seconds:g} s: try again, what has been taken is kept once</source>
+            <translation>{name} ne répond pas, ou pas jusqu’au bout, en {seconds:g} s : réessayez, ce qui a été pris est gardé une seule fois</translation>
         </message>
         <message>
             <source>{name} does not let {user!r} in ({status}): give name and password again</source>
@@ -22192,6 +22228,34 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>device {name} is of kind {kind}; MJCF is written for kind {kinds} alone</source>
             <translation>l’appareil {name} est du type {kind} ; le MJCF n’est écrit que pour le type {kinds}</translation>
+        </message>
+        <message>
+            <source>{name} lists more than {most_pictures} pictures</source>
+            <translation>{name} énumère plus de {most_pictures} images</translation>
+        </message>
+        <message>
+            <source>it sent a picture that is too large</source>
+            <translation>elle a envoyé une image trop grande</translation>
+        </message>
+        <message>
+            <source>it sent something else than one picture for one picture</source>
+            <translation>elle a envoyé autre chose qu’une image pour une image</translation>
+        </message>
+        <message>
+            <source>{name} does not answer as an archive by the web: its address must be the one before /studies</source>
+            <translation>{name} ne répond pas comme une archive du web : son adresse doit être celle d’avant /studies</translation>
+        </message>
+        <message>
+            <source>{name} refuses with {status}; try again, and ask who runs it if it stays</source>
+            <translation>{name} refuse avec {status} ; réessayez, et demandez au responsable si cela persiste</translation>
+        </message>
+        <message>
+            <source>{name}: {uid!r} is no UID of DICOM</source>
+            <translation>{name} : {uid!r} n’est pas un UID de DICOM</translation>
+        </message>
+        <message>
+            <source>PACS {name} has no web address: `acus pacs add {name} --web https://…`</source>
+            <translation>Le PACS {name} n’a pas d’adresse web : `acus pacs add {name} --web https://…`</translation>
         </message>
     </context>
 </TS>

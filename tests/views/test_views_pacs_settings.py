@@ -134,3 +134,36 @@ def test_a_damaged_configuration_is_said_and_can_be_replaced(open_dialog):
     enter(dialog, name="a", host="h", title="A")
     dialog.buttons.button(QDialogButtonBox.StandardButton.Save).click()
     assert len(configured()) == 1
+
+
+def test_an_archive_by_the_web_is_entered_kept_and_read_again(open_dialog):
+    dialog = open_dialog()
+    dialog.add()
+    form = dialog.form
+    assert not form.web["url"].isEnabled()
+    form.retrieve.setCurrentIndex(form.retrieve.findData("web"))
+    assert form.web["url"].isEnabled()
+    assert not form.fields["host"].isEnabled()
+    form.fields["name"].setText("house")
+    form.web["url"].setText("http://pacs.example/dicom-web")
+    assert not dialog.save()
+    assert "https" in dialog.note.text()
+    form.web["url"].setText(" https://pacs.example/dicom-web ")
+    form.web["user"].setText("acus")
+    form.web["password"].setText(" s3cret")
+    assert dialog.save()
+    (one,) = configured()
+    assert (one.host, one.port, one.retrieve) == ("pacs.example", 443, "web")
+    assert (one.web.url, one.web.password) == ("https://pacs.example/dicom-web", " s3cret")
+    again = open_dialog()
+    assert again.form.values() == form.values()
+    again.reject()  # nothing was changed: no question
+
+
+def test_without_a_web_address_the_field_is_named(open_dialog):
+    dialog = open_dialog()
+    dialog.add()
+    dialog.form.fields["name"].setText("house")
+    dialog.form.retrieve.setCurrentIndex(dialog.form.retrieve.findData("web"))
+    assert not dialog.save()
+    assert "web" in dialog.note.text()

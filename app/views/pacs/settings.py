@@ -56,6 +56,7 @@ _DEFAULTS: Values = {
 
 
 _TEXTS = ("name", "host", "title", "own_title", "own_host")
+_WEB = ("url", "user", "password")
 
 
 class PacsForm(QWidget):
@@ -76,6 +77,9 @@ class PacsForm(QWidget):
         self.timeout.setSuffix(" s")
         self.retrieve.addItem(tr("C-GET: over the same connection"), "get")
         self.retrieve.addItem(tr("C-MOVE: it connects to us"), "move")
+        self.retrieve.addItem(tr("DICOMweb: by https"), "web")
+        self.web = {name: QLineEdit(self) for name in _WEB}
+        self.web["password"].setEchoMode(QLineEdit.EchoMode.Password)
         self.tls = QCheckBox(tr("Encrypted connection (TLS)"), self)
         self.files = {name: QLineEdit(self) for name in _FILES}
         self.check_name = QCheckBox(tr("Its certificate must name the host"), self)
@@ -102,6 +106,9 @@ class PacsForm(QWidget):
         self.own_port.setValue(int(str(values["own_port"])))
         self.timeout.setValue(float(str(values["timeout_s"])))
         self.retrieve.setCurrentIndex(self.retrieve.findData(values["retrieve"]))
+        web = values.get("web")
+        for name, field in self.web.items():
+            field.setText(str(web.get(name, "")) if isinstance(web, Mapping) else "")
         tls = values.get("tls")
         self.tls.setChecked(isinstance(tls, Mapping))
         tls = tls if isinstance(tls, Mapping) else {}
@@ -120,13 +127,27 @@ class PacsForm(QWidget):
             "timeout_s": self.timeout.value(),
             "retrieve": self.retrieve.currentData(),
         }
+        by_web = values["retrieve"] == "web"
+        if by_web:  # the address says them
+            for name in ("host", "port", "title"):
+                del values[name]
+        if by_web or any(field.text().strip() for field in self.web.values()):
+            values["web"] = {
+                name: field.text() if name == "password" else field.text().strip()
+                for name, field in self.web.items()
+            }
         if self.tls.isChecked():
             files = {name: field.text().strip() for name, field in self.files.items()}
             values["tls"] = {**files, "check_name": self.check_name.isChecked()}
         return values
 
     def _enable(self) -> None:
-        moves = self.retrieve.currentData() == "move"
+        moves, by_web = (self.retrieve.currentData() == way for way in ("move", "web"))
+        for field in (self.fields["host"], self.fields["title"], self.fields["own_title"]):
+            field.setEnabled(not by_web)
+        self.port.setEnabled(not by_web)
+        for field in self.web.values():
+            field.setEnabled(by_web)
         self.fields["own_host"].setEnabled(moves)
         self.senders.setEnabled(moves)
         self.own_port.setEnabled(moves)
@@ -145,6 +166,9 @@ class PacsForm(QWidget):
             (tr("AE title"), fields["title"], tr("the archive's, at most 16 characters")),
             (tr("Own AE title"), fields["own_title"], tr("tell the archive's administrator")),
             (tr("Retrieve by"), self.retrieve, ""),
+            (tr("Web address"), self.web["url"], tr("https://…/dicom-web, before /studies")),
+            (tr("User"), self.web["user"], tr("name that the archive gave you; may stay empty")),
+            (tr("Password"), self.web["password"], tr("kept in a file that only you can read")),
             (tr("Own address"), fields["own_host"], tr("empty: the one that leads to the archive")),
             (tr("Own port"), self.own_port, ""),
             (tr("Other senders"), self.senders, tr("empty: pictures come from the host alone")),
@@ -223,7 +247,7 @@ class PacsSettingsDialog(SettingsDialog):
         self.list, self.form, self.strip = QListWidget(self), PacsForm(self), ProgressStrip(self)
         self.add_button = QPushButton(tr("Add"), self)
         self.remove_button = QPushButton(tr("Remove"), self)
-        self.test_button = QPushButton(tr("Test (C-ECHO)"), self)
+        self.test_button = QPushButton(tr("Test"), self)
         self._lay_out()
         self._connect()
         self._read()
