@@ -131,7 +131,9 @@ def conform_(
     restart: Annotated[
         bool, typer.Option("--restart", help="Wait until the board is switched off and on.")
     ] = False,
-    out: Annotated[Path | None, typer.Option("--out", help="Text file for the report.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="File for the report: .pdf, or text.")
+    ] = None,
 ) -> Answer:
     """Test a board against the protocol, rule by rule.
 
@@ -153,7 +155,11 @@ def conform_(
         restart,
         lambda line: typer.echo(line, err=wants_json()),
     )
-    if out is not None:
+    if out is not None and out.suffix.lower() == ".pdf":
+        from app.views.robot.conformance_page import write_conformance
+
+        write_conformance(out, result, datetime.now())
+    elif out is not None:
         write_atomically(out, result.report(datetime.now()))
     return Answer(result.document(), result.lines(), yes=result.good)
 

@@ -16458,8 +16458,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Seriennummer der Platine; nach ihr werden Kalibrierungen aufbewahrt.</translation>
         </message>
         <message>
+            <source>Conformance of a board</source>
+            <translation>Konformität einer Platine</translation>
+        </message>
+        <message>
+            <source>Serial number</source>
+            <translation>Seriennummer</translation>
+        </message>
+        <message>
             <source>Firmware</source>
             <translation type="unfinished">Firmware</translation>
+        </message>
+        <message>
+            <source>Asked</source>
+            <translation>Befragt am</translation>
         </message>
         <message>
             <source>{version}, protocol {protocol}</source>

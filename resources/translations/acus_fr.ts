@@ -16458,8 +16458,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Numéro de série de la carte ; les étalonnages sont classés selon lui.</translation>
         </message>
         <message>
+            <source>Conformance of a board</source>
+            <translation>Conformité d’une carte</translation>
+        </message>
+        <message>
+            <source>Serial number</source>
+            <translation>Numéro de série</translation>
+        </message>
+        <message>
             <source>Firmware</source>
             <translation type="unfinished">Micrologiciel</translation>
+        </message>
+        <message>
+            <source>Asked</source>
+            <translation>Interrogée le</translation>
         </message>
         <message>
             <source>{version}, protocol {protocol}</source>
