@@ -24,10 +24,14 @@ EVERY_EXERCISE = """
 from app.compose.explaining import explanation
 from app.exercises.library import library
 from app.exercises.scene import device_of
+apart = {}  # one of each machine, kind of task and source of tissue: the others take the same ways
 for one in library():
-    device_of(one)
-    explanation(one)
+    device = device_of(one)
+    apart.setdefault((device.kind, bool(one.touch), one.layers_from), one)
 assert len(library()) > 5
+assert len(apart) >= 3
+for one in apart.values():
+    explanation(one)
 """
 
 A_TRIAL = """

@@ -1,10 +1,11 @@
 """Workers of Dask: the same bytes by any number; killed ones lose nothing; errors of one line."""
 
+import os
 import signal
 import subprocess
 import sys
 from pathlib import Path
-from shutil import copyfile, copytree
+from shutil import copyfile
 
 import pytest
 
@@ -159,24 +160,22 @@ def test_killed_workers_and_a_killed_scheduler_lose_nothing(tmp_path):
 def test_a_worker_of_another_version_and_a_scheduler_in_the_open_are_refused(tmp_path):
     place = records(tmp_path / "records", 1)
     other = tmp_path / "other"
-    for name in ("app", "acus", "resources"):
-        copytree(ROOT / name, other / name, ignore=lambda *_: ["__pycache__", "site"])
-    file = other / "app" / "scoring" / "version.py"
-    file.write_text(
-        file.read_text().replace("SCORING_VERSION: Final = ", "SCORING_VERSION: Final = 9")
-    )
+    other.mkdir()
+    # As if its version had been written so; a copy of the program would compile all its kernels.
+    version = "import app.scoring.version as one\none.SCORING_VERSION = 97\n"
+    (other / "sitecustomize.py").write_text(version)
     words = "cohort", "rescore", "--folder", place, "--out", "a.parquet", "--scheduler"
     with Dask(tmp_path) as dask:
         code, _, err = acus(*words, dask.address, folder=tmp_path)
         assert (code, "has no worker" in err) == (2, True), err
-        dask.worker(PYTHONPATH=str(other))
+        dask.worker(PYTHONPATH=f"{other}{os.pathsep}{ROOT}")
         dask._wait(
             lambda: "no worker" not in acus(*words, dask.address, folder=tmp_path)[2], "none"
         )
         code, _, err = acus(*words, dask.address, folder=tmp_path)
         assert (code, len(err.strip().splitlines())) == (2, 1), err
         assert "has another Acus" in err
-        assert "scoring 9" in err
+        assert "scoring 97" in err
     with Dask(tmp_path, host="0.0.0.0") as dask:
         code, _, err = acus(*words, dask.address, folder=tmp_path)
         assert (code, "Dask runs what it is sent" in err) == (2, True), err

@@ -341,7 +341,14 @@ def test_no_kill_loses_a_finished_attempt_and_the_index_is_rebuilt_equal(tmp_pat
     ) as parent:
         assert parent.stdin is not None
         assert parent.stdout is not None
-        finished: list[str] = []
+        # How long an attempt takes on this computer, now: lives are as long, a little or a lot.
+        parent.stdin.write("\n")
+        parent.stdin.flush()
+        first = int(parent.stdout.readline().split()[1])
+        start = time.monotonic()
+        finished = [parent.stdout.readline().strip()]
+        longer = max(1.0, 2.0 * AT_ONCE * (time.monotonic() - start))
+        os.kill(first, signal.SIGKILL)
         begun = 0
         while killed < KILLS:
             if begun < KILLS and len(running) < AT_ONCE:
@@ -350,7 +357,8 @@ def test_no_kill_loses_a_finished_attempt_and_the_index_is_rebuilt_equal(tmp_pat
                 begun += 1
                 while not (line := parent.stdout.readline()).startswith("begun"):
                     finished.append(line.strip())
-                running.append((time.monotonic() + rng.uniform(0.2, 1.6), int(line.split()[1])))
+                life = longer * rng.uniform(0.2, 1.6)
+                running.append((time.monotonic() + life, int(line.split()[1])))
                 continue
             running.sort()
             moment, pid = running.pop(0)
