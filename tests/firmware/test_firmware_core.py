@@ -272,6 +272,20 @@ class Emulated:
 SINGLES = st.floats(width=32) | st.sampled_from([0.0, -0.0, 0.6, 0.5, -0.7, 200.0, -0.25, 0.25])
 
 
+@pytest.mark.parametrize("device", ["icube", "tensegrity"])
+def test_messages_as_long_as_known_ones_but_of_another_type_are_ignored(device):
+    channels = 2 if device == "icube" else 4
+    kind = acus.COMMAND if channels == 2 else cables.COMMAND
+    command = framing.frame(struct.pack(f"<BBH{channels}f", kind, 1, 7, *[0.0] * channels))
+    board = Bench(device)
+    assert board.feed(acus.hello()) != b""
+    for known in (acus.hello(), command, acus.home(1)):
+        length = len(next(framing.Deframer().feed(known)))
+        for other in (0x00, 0x7F, 0xFF):
+            assert board.feed(framing.frame(bytes([other]) + bytes(length - 1))) == b""
+    assert board.feed(command) != b""
+
+
 def requests(channels):
     kind = acus.COMMAND if channels == 2 else cables.COMMAND
     commands = st.builds(
