@@ -52,12 +52,12 @@ def openid(
         bool, typer.Option("--forget", help="Ask nobody any more; all links go.")
     ] = False,
 ) -> Answer:
-    """Let the hospital sign people in by OpenID Connect (instructor).
+    """Let the hospital sign people in too (instructor).
 
-    Without options it says who is asked and how many are linked. What answers is asked whether it
-    is a provider before it is kept. Who is in no group that is mapped is a student, who is in
-    several has the least of their roles; and no group gives a role that this station has not given.
-    A secret may stand in ACUS_OPENID_SECRET.
+    By OpenID Connect. Without options it says who is asked and how many are linked. What answers is
+    asked whether it is a provider before it is kept. Who is in no group that is mapped is a
+    student, who is in several has the least of their roles; and no group gives a role that this
+    station has not given. A secret may stand in ACUS_OPENID_SECRET.
     """
     from app.exchange.openid import (
         OpenIdError,

@@ -19317,6 +19317,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} persons are linked</source>
+            <translation type="unfinished">
+                <numerusform />
+                <numerusform />
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
                 <numerusform>{n} Region {reason} ausgelassen: Die Datei sagt nicht, was sie ist</numerusform>
@@ -19526,6 +19533,62 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>An attempt is running: end it before the role is changed</source>
             <translation type="unfinished">Ein Versuch läuft: Beenden Sie ihn, bevor Sie die Rolle wechseln</translation>
+        </message>
+        <message>
+            <source>Sign in by the hospital</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The browser shows the sign-in page of {hospital}. Sign in there, then come back here: this ends by itself.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Waiting for the browser</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Open the page again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Copy its address</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>No browser opened: copy the address into one on this computer.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Nobody was signed in. Pseudonym and PIN still do.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Try again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Sign in by the hospital…</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The hospital knows you, this station does not yet. Choose a pseudonym, which screens show, and a PIN; whoever has them here already gives those. It is asked once: no name and no address of the hospital is kept.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the two PINs are not the same: type them again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>PIN again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Your pseudonym at this station</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The hospital's groups allow you the role {role}. This station gives it once, by the instructor's password. Cancel goes on without it.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Role: {role}</source>
@@ -22184,6 +22247,166 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Passphrase (empty: not encrypted)</source>
             <translation type="unfinished">Passphrase (leer: unverschlüsselt)</translation>
+        </message>
+        <message>
+            <source>no provider is named: `acus people openid --issuer URL --client ID`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{issuer:?{issuer} signs people in too|only this station signs people in}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>it works: the groups allow the role {role} at most; nobody was signed in here</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>That is all here: go back to Acus, and close this page.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>This is no answer to a sign-in that Acus waits for. Go back to Acus.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>sign in on the page that opens: {address}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Secret of the client</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym} is known here already, and {error}; if it is not yours, choose another pseudonym</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{pseudonym}, or who you are at the hospital, is linked already: choose another pseudonym, or ask the instructor to undo the link (`acus people openid --unlink`)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>issuer: {fault}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>issuer: {issuer} has a part behind #: give the address without it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{setting}: {entered!r} cannot be one: give 1 to {longest} printable letters</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the group {group!r} stands for two roles: map it to one</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{path} does not say who signs people in: give it again, `acus people openid --issuer URL --client ID`</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>set the instructor's password first (`acus people instructor`): a role is given with it, and digests need the station's key</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} is the document of the issuer {other!r}, not of {issuer!r}: if that is the hospital's, give it letter by letter</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} offers none of {taken} ({field}): ask who runs it to allow one for this client</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} gives no token ({fault}): sign in again; if it stays so, ask who runs it whether {client!r} is a client with PKCE there, and whether it has a secret</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} gives no ID token: ask who runs it to allow {client!r} the scope openid</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} does not answer, or not to the end, within {seconds:g} s: sign in by pseudonym and PIN, and try again later</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} sends on to {other}: it was not followed; if the provider is there, give that address as issuer</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{address} is this computer, which the provider is not</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{address} is plain http</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the document of {issuer} cannot be used, its {field}: {fault}; ask who runs it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>what answers at {where} is no provider of OpenID Connect, or cannot now ({status}): sign in by pseudonym and PIN; if it stays so, look at the issuer {issuer}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} did not sign you in ({fault}): try again, or sign in by pseudonym and PIN</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no answer of {name} came, but what belongs to another question, and was refused: try again, and sign in on the page that opens then</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>nobody signed in at {name} within {minutes:g} min: try again, or sign in by pseudonym and PIN</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the answer in the browser is not of {issuer}: nobody was signed in; try again, and if it stays so ask who runs it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>this computer cannot listen for the browser ({reason}): sign in by pseudonym and PIN</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>it is not signed by any of {taken}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no key that it publishes has signed it, or it is damaged</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>sign in by pseudonym and PIN</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} did not ask who is here, but took who had signed in before (auth_time): sign out there in the browser, and try again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>its time is over or not yet come ({name}): look at this computer's clock</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>it answers another question ({name})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>it is for another program ({name})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>another provider made it ({name})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>it lacks {name}, or holds nonsense there</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>

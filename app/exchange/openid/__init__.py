@@ -19,10 +19,11 @@ from app.exchange.openid.links import (
 )
 from app.exchange.openid.place import OpenIdPlace, is_configured, place_of_openid, put_openid
 from app.exchange.openid.provider import discover, published_keys
-from app.exchange.openid.question import Question, ask
+from app.exchange.openid.question import PATIENCE, Question, ask
 from app.exchange.openid.roles import Identity, StationRole
 
 __all__ = [
+    "PATIENCE",
     "Entered",
     "Identity",
     "OpenIdError",

@@ -82,10 +82,10 @@ class OpenIdPlace:
                 if not text.strip() or len(text) > _LONGEST or not text.isprintable():
                     raise OpenIdError(
                         sentence(
-                            "{setting}: {value!r} cannot be one: give 1 to {longest} printable "
+                            "{setting}: {entered!r} cannot be one: give 1 to {longest} printable "
                             "letters",
                             setting=setting,
-                            value=text[:40],
+                            entered=text[:40],
                             longest=_LONGEST,
                         )
                     )

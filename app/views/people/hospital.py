@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QVBoxLayo
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exchange.openid import (
+    PATIENCE,
     Entered,
     Identity,
     Question,
@@ -92,6 +93,9 @@ class WaitingDialog(QDialog):
 class HospitalSignIn(QObject):
     """Lets the provider say who is here; one sign-in at a time.
 
+    Attributes:
+        patience: so long the browser's answer is waited for [s].
+
     Args:
         doors: of the page of people.
         let_in: takes who was signed in.
@@ -112,6 +116,7 @@ class HospitalSignIn(QObject):
         self._question: Question | None = None
         self._dialog: WaitingDialog | None = None
         self._closed = False
+        self.patience = PATIENCE
 
     @property
     def configured(self) -> bool:
@@ -190,10 +195,10 @@ class HospitalSignIn(QObject):
             question.close()
             return
         self._question = question
-        people = self._doors.people
+        people, patience = self._doors.people, self.patience
 
         def work(progress: Progress) -> tuple[Identity, Entered | None]:
-            identity = question.identity(progress)
+            identity = question.identity(progress, patience)
             return identity, enter(people, identity)
 
         def done(result: tuple[Identity, Entered | None]) -> None:
