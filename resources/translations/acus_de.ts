@@ -19559,8 +19559,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Kein Browser ging auf: Kopieren Sie die Adresse in einen auf diesem Rechner.</translation>
         </message>
         <message>
-            <source>Nobody was signed in. Pseudonym and PIN still do.</source>
-            <translation type="unfinished">Niemand wurde angemeldet. Mit Pseudonym und PIN geht es weiterhin.</translation>
+            <source>Nobody was signed in. Pseudonym and PIN work as before.</source>
+            <translation type="unfinished">Niemand wurde angemeldet. Pseudonym und PIN gehen wie bisher.</translation>
+        </message>
+        <message>
+            <source>The hospital knows you, this station does not yet. Choose a pseudonym, which screens show, and a PIN; if you have both here already, give those. It is asked once; no name and no address of the hospital is kept.</source>
+            <translation type="unfinished">Das Krankenhaus kennt Sie, dieser Platz noch nicht. Wählen Sie ein Pseudonym, das auf Bildschirmen steht, und eine PIN; haben Sie hier schon beides, geben Sie diese an. Gefragt wird einmal; kein Name und keine Adresse des Krankenhauses wird aufbewahrt.</translation>
+        </message>
+        <message>
+            <source>The hospital's groups allow you the role {role}. This station gives it once, by the instructor's password.</source>
+            <translation type="unfinished">Die Gruppen des Krankenhauses erlauben Ihnen die Rolle {role}. Dieser Platz gibt sie einmal, mit dem Passwort des Kursleiters.</translation>
+        </message>
+        <message>
+            <source>Go on without it</source>
+            <translation type="unfinished">Ohne sie weiter</translation>
         </message>
         <message>
             <source>Try again</source>
@@ -19569,10 +19581,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Sign in by the hospital…</source>
             <translation type="unfinished">Mit dem Krankenhaus anmelden…</translation>
-        </message>
-        <message>
-            <source>The hospital knows you, this station does not yet. Choose a pseudonym, which screens show, and a PIN; whoever has them here already gives those. It is asked once: no name and no address of the hospital is kept.</source>
-            <translation type="unfinished">Das Krankenhaus kennt Sie, dieser Platz noch nicht. Wählen Sie ein Pseudonym, das auf Bildschirmen steht, und eine PIN; wer hier schon beides hat, gibt diese an. Gefragt wird einmal: Kein Name und keine Adresse des Krankenhauses wird aufbewahrt.</translation>
         </message>
         <message>
             <source>the two PINs are not the same: type them again</source>
@@ -19585,10 +19593,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Your pseudonym at this station</source>
             <translation type="unfinished">Ihr Pseudonym an diesem Platz</translation>
-        </message>
-        <message>
-            <source>The hospital's groups allow you the role {role}. This station gives it once, by the instructor's password. Cancel goes on without it.</source>
-            <translation type="unfinished">Die Gruppen des Krankenhauses erlauben Ihnen die Rolle {role}. Dieser Platz gibt sie einmal, mit dem Passwort des Kursleiters. Abbrechen fährt ohne sie fort.</translation>
         </message>
         <message>
             <source>Role: {role}</source>

@@ -19559,8 +19559,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Aucun navigateur ne s'est ouvert : copiez l'adresse dans un navigateur de cet ordinateur.</translation>
         </message>
         <message>
-            <source>Nobody was signed in. Pseudonym and PIN still do.</source>
-            <translation type="unfinished">Personne n'a été connecté. Le pseudonyme et le PIN marchent toujours.</translation>
+            <source>Nobody was signed in. Pseudonym and PIN work as before.</source>
+            <translation type="unfinished">Personne n'a été connecté. Le pseudonyme et le PIN marchent comme avant.</translation>
+        </message>
+        <message>
+            <source>The hospital knows you, this station does not yet. Choose a pseudonym, which screens show, and a PIN; if you have both here already, give those. It is asked once; no name and no address of the hospital is kept.</source>
+            <translation type="unfinished">L'hôpital vous connaît, ce poste pas encore. Choisissez un pseudonyme, que les écrans montrent, et un PIN ; si vous avez déjà les deux ici, donnez ceux-là. La question n'est posée qu'une fois ; ni nom ni adresse de l'hôpital n'est gardé.</translation>
+        </message>
+        <message>
+            <source>The hospital's groups allow you the role {role}. This station gives it once, by the instructor's password.</source>
+            <translation type="unfinished">Les groupes de l'hôpital vous permettent le rôle {role}. Ce poste le donne une fois, par le mot de passe du formateur.</translation>
+        </message>
+        <message>
+            <source>Go on without it</source>
+            <translation type="unfinished">Continuer sans lui</translation>
         </message>
         <message>
             <source>Try again</source>
@@ -19569,10 +19581,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Sign in by the hospital…</source>
             <translation type="unfinished">Se connecter par l'hôpital…</translation>
-        </message>
-        <message>
-            <source>The hospital knows you, this station does not yet. Choose a pseudonym, which screens show, and a PIN; whoever has them here already gives those. It is asked once: no name and no address of the hospital is kept.</source>
-            <translation type="unfinished">L'hôpital vous connaît, ce poste pas encore. Choisissez un pseudonyme, que les écrans montrent, et un PIN ; qui les a déjà ici donne ceux-là. La question n'est posée qu'une fois : ni nom ni adresse de l'hôpital n'est gardé.</translation>
         </message>
         <message>
             <source>the two PINs are not the same: type them again</source>
@@ -19585,10 +19593,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Your pseudonym at this station</source>
             <translation type="unfinished">Votre pseudonyme à ce poste</translation>
-        </message>
-        <message>
-            <source>The hospital's groups allow you the role {role}. This station gives it once, by the instructor's password. Cancel goes on without it.</source>
-            <translation type="unfinished">Les groupes de l'hôpital vous permettent le rôle {role}. Ce poste le donne une fois, par le mot de passe du formateur. Annuler continue sans lui.</translation>
         </message>
         <message>
             <source>Role: {role}</source>

@@ -505,13 +505,14 @@ def test_what_is_kept_of_who_somebody_is_at_the_hospital_is_a_salted_digest(issu
     identity = signed_in(issuer)
     assert enter(people, identity) is None
     entered = link(people, identity, "Ada", "271828")
-    assert enter(people, identity) == entered
     assert entered.role is StationRole.STUDENT
     held = everything(people.folder) + caplog.text.encode()
     for secret in (b"sub-of-ada", b"Lovelace", b"ada@hospital", issuer.issuer.encode()):
         assert secret not in held
     assert people.sign_in("Ada", "271828") == entered.person  # the PIN stays
     said = [(one.who, one.what, one.about) for one in entries(people.folder)][-3:]
+    assert enter(people, identity) == entered
+    assert entries(people.folder)[-1].what == "signed in by hospital"
     key = entered.person.key
     assert said[:2] == [(key, "sign-in linked", (key,)), (key, "signed in by hospital", (key,))]
     assert b"Ada" not in audit_file(people.folder).read_bytes()

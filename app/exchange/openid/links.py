@@ -111,6 +111,7 @@ def link(people: People, identity: Identity, pseudonym: str, pin: str) -> Entere
             raise _linked(wanted)
         write_names(names | {entry_of(person.key, LINK): digests[0]})
     note("sign-in linked", [person.key], people.folder, who=person.key)
+    note("signed in by hospital", [person.key], people.folder, who=person.key)
     return Entered(person, StationRole.STUDENT, identity.allowed)
 
 

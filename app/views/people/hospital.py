@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QUrl
-from PySide6.QtGui import QDesktopServices, QGuiApplication
+from PySide6.QtGui import QDesktopServices, QGuiApplication, QShowEvent
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QVBoxLayout, QWidget
 
 from app.core.errors import AcusError
@@ -26,6 +26,7 @@ from app.session.errors import PeopleError
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import button, label, size_dialog
 from app.views.kit.roles import Role, role_title
+from app.views.kit.settings_dialog import make_room
 from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.people.pages import EntryDialog
@@ -67,6 +68,11 @@ class WaitingDialog(QDialog):
         for widget in (self.words, self._bar, self.note, self.buttons):
             column.addWidget(widget)
 
+    def showEvent(self, event: QShowEvent) -> None:
+        """Begin with room for the words."""
+        super().showEvent(event)
+        make_room(self)
+
     def show_asked(self, opened: bool) -> None:
         """Offer the page again; say so where no browser opened."""
         self.again.setEnabled(True)
@@ -76,18 +82,18 @@ class WaitingDialog(QDialog):
 
     def show_fault(self, message: str) -> None:
         """Say why nobody was signed in, and offer to ask anew."""
-        self._bar.setRange(0, 1)
-        self.words.setText(tr("Nobody was signed in. Pseudonym and PIN still do."))
+        self._bar.hide()
+        self.words.setText(tr("Nobody was signed in. Pseudonym and PIN work as before."))
         tell(self.note, Verdict.BAD, message)
         self.again.setText(tr("Try again"))
         self.again.setEnabled(True)
-        self.copy.setEnabled(False)
-        self.adjustSize()
+        self.copy.hide()
+        make_room(self)
 
     def warn(self, message: str) -> None:
         """Say what is to be done otherwise."""
         tell(self.note, Verdict.WARNING, message)
-        self.adjustSize()
+        make_room(self)
 
 
 class HospitalSignIn(QObject):
@@ -219,7 +225,7 @@ class HospitalSignIn(QObject):
         """Let somebody who is new here choose pseudonym and PIN, once."""
         words = tr(
             "The hospital knows you, this station does not yet. Choose a pseudonym, which screens "
-            "show, and a PIN; whoever has them here already gives those. It is asked once: no "
+            "show, and a PIN; if you have both here already, give those. It is asked once; no "
             "name and no address of the hospital is kept."
         )
 
@@ -241,7 +247,7 @@ class HospitalSignIn(QObject):
         role = role_title(Role(entered.allowed.value))
         words = tr(
             "The hospital's groups allow you the role {role}. This station gives it once, by the "
-            "instructor's password. Cancel goes on without it.",
+            "instructor's password.",
             role=role,
         )
 
@@ -249,7 +255,10 @@ class HospitalSignIn(QObject):
             self._let_in(give_role(self._doors.people, entered, password))
 
         title = tr("Role: {role}", role=role)
-        dialog = EntryDialog(title, ((tr("Password"), True),), take, words, self._doors.parent())
+        fields = ((tr("Instructor's password"), True),)
+        dialog = EntryDialog(title, fields, take, words, self._doors.parent())
+        cancel = dialog.buttons.button(QDialogButtonBox.StandardButton.Cancel)
+        cancel.setText(tr("Go on without it"))
         dialog.rejected.connect(lambda: None if self._closed else self._let_in(entered))
         self._doors.open(dialog)
 
