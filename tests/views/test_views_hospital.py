@@ -7,7 +7,7 @@ from urllib.parse import urlsplit
 import pytest
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QPushButton
-from test_views_language import german
+from test_views_language import german, rebuilding
 
 sys.path.append(str(Path(__file__).parents[1] / "exchange"))
 from oidc_issuer import Issuer, signed
@@ -22,10 +22,8 @@ from app.views.kit.roles import Role
 from app.views.people.feature import PeopleFeature
 from app.views.people.hospital import WaitingDialog
 from app.views.people.pages import EntryDialog
-from app.views.shell.language import Rebuilding
-from app.views.shell.window import MainWindow
 
-_ = german  # a fixture
+_ = german, rebuilding  # fixtures
 PASSWORD = "correct horse battery"
 ROLES = {"instructors": ("teachers",), "technicians": ("technicians",)}
 
@@ -274,14 +272,12 @@ def test_a_window_that_goes_while_a_role_is_asked_for_lets_nobody_in(feature, se
 
 @pytest.mark.long("journey")
 def test_another_language_while_the_browser_asks_ends_the_waiting_and_signed_in_stays_so(
-    services, application, settle, german, issuer
+    rebuilding, settle, issuer
 ):
     people = People()
     people.set_instructor(PASSWORD)
     put_openid(OpenIdPlace(issuer.issuer, "acus", **ROLES), people)
     tea = people.add(RosterLine("Tea", "", "2718"))[0]
-    rebuilding = Rebuilding(lambda: MainWindow(services))
-    rebuilding.window.show()
     feature = rebuilding.window.feature(PeopleFeature)
     feature.opened = []
     feature.hospital._browse = lambda address: bool(feature.opened.append(address) or True)
@@ -301,8 +297,6 @@ def test_another_language_while_the_browser_asks_ends_the_waiting_and_signed_in_
     assert ACCESS.signed_in == (None, True, Role.INSTRUCTOR, tea.key)
     assert ACCESS.role is Role.INSTRUCTOR
     rebuilding.window.feature(PeopleFeature).close()
-    rebuilding.close()
-    rebuilding.window.leave()
 
 
 @pytest.mark.long("journey")
