@@ -67,6 +67,7 @@ def openid(
         place_of_openid,
         published_keys,
         put_openid,
+        require_joserfc,
         unlink,
     )
     from app.session.people import People
@@ -86,6 +87,7 @@ def openid(
             tuple(technician or ()),
             secret=_secret() if has_secret else "",
         ).checked()
+        require_joserfc()  # before anybody at the station meets its absence
         published_keys(wanted, discover(wanted))
         put_openid(wanted, people)
     if undo:

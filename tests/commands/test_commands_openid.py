@@ -12,7 +12,7 @@ from oidc_issuer import Issuer
 from oidc_rig import Provider, browse, visit
 
 from app.__main__ import main
-from app.exchange.openid import Identity, OpenIdPlace, link, place_of_openid, put_openid
+from app.exchange.openid import HospitalIdentity, OpenIdPlace, link, place_of_openid, put_openid
 from app.session.audit import entries
 from app.session.people import People
 
@@ -49,7 +49,7 @@ def test_a_provider_is_asked_before_it_is_kept_and_forgotten_with_its_links(acus
         "groups": {"student": ["d"], "instructor": ["a", "b"], "technician": ["c"]},
     }  # fmt: skip
     assert issuer.paths == ["/.well-known/openid-configuration", "/keys"]
-    link(People(), Identity(issuer.issuer, "sub"), "Ada", "271828")
+    link(People(), HospitalIdentity(issuer.issuer, "sub"), "Ada", "271828")
     assert acus()["linked"] == 1
     assert acus("--unlink", "ada")["linked"] == 0
     assert acus("--forget")["issuer"] is None
@@ -66,6 +66,14 @@ def test_what_answers_but_is_no_provider_is_not_kept(acus, issuer):
     assert "is no address" in acus("--issuer", "hospital", "--client", "acus", code=2)
     assert "client" in acus("--issuer", issuer.issuer, code=2)
     assert "no provider is named" in acus("--try", code=2)
+    assert place_of_openid() is None
+
+
+def test_without_the_package_nothing_is_kept_and_its_extra_is_named(acus, issuer, monkeypatch):
+    monkeypatch.setitem(sys.modules, "joserfc", None)
+    err = acus("--issuer", issuer.issuer, "--client", "acus", code=2)
+    assert "joserfc is not installed" in err
+    assert "`school`" in err
     assert place_of_openid() is None
 
 

@@ -17,7 +17,7 @@ from oidc_rig import Provider, browse, visit
 
 from app.core.progress import Cancelled, Progress
 from app.exchange.openid import (
-    Identity,
+    HospitalIdentity,
     OpenIdError,
     OpenIdPlace,
     StationRole,
@@ -41,7 +41,7 @@ from app.session.tries import WrongPasswordError
 
 PASSWORD = "correct horse battery"
 PAGES = ("That is all.", "No answer.")
-ADA = Identity("https://login.hospital.example", "sub-of-ada")
+ADA = HospitalIdentity("https://login.hospital.example", "sub-of-ada")
 
 
 @pytest.fixture
@@ -143,7 +143,7 @@ def test_a_token_of_each_signature_that_is_taken_lets_in(issuer, private, alg):
     issuer.keys = [jwk(OTHER, "other"), jwk(private)]
     issuer.token = lambda claims: signed(claims, private, alg)
     issuer.document = {"id_token_signing_alg_values_supported": [alg]}
-    assert signed_in(issuer) == Identity(issuer.issuer, "sub-of-ada")
+    assert signed_in(issuer) == HospitalIdentity(issuer.issuer, "sub-of-ada")
     assert issuer.paths == [
         "/.well-known/openid-configuration", "/token", "/keys",
     ]  # fmt: skip
@@ -529,8 +529,8 @@ def test_another_station_or_issuer_tells_the_same_person_by_another_digest(peopl
     ]
     assert digests[0].isdisjoint(digests[1])
     assert {len(digest) for some in digests for digest in some} == {64}
-    assert enter(people, Identity("https://else.example", "sub-of-ada")) is None
-    assert enter(people, Identity(ADA.issuer, "sub-of-ad")) is None
+    assert enter(people, HospitalIdentity("https://else.example", "sub-of-ada")) is None
+    assert enter(people, HospitalIdentity(ADA.issuer, "sub-of-ad")) is None
 
 
 def test_a_link_outlives_a_renewed_key_of_the_station_and_is_told_by_the_new_one(people):
@@ -550,7 +550,7 @@ def test_who_is_here_already_links_by_pseudonym_and_pin_and_nobody_else_does(peo
     assert linked_keys(people) == ()
     assert link(people, ADA, "ADA", "314159").person.key == ada.key
     assert people.names()[ada.key] == "Ada Lovelace"
-    eve = Identity(ADA.issuer, "sub-of-eve")
+    eve = HospitalIdentity(ADA.issuer, "sub-of-eve")
     with pytest.raises(OpenIdError, match="is linked already"):
         link(people, eve, "Ada", "314159")
     with pytest.raises(OpenIdError, match="is linked already"):
@@ -579,7 +579,7 @@ def test_a_pseudonym_or_pin_that_cannot_be_one_links_nobody(people, pseudonym, p
 
 
 def test_a_role_is_given_once_by_the_password_and_taken_by_the_groups_at_any_time(people):
-    teacher = Identity(ADA.issuer, ADA.subject, StationRole.INSTRUCTOR)
+    teacher = HospitalIdentity(ADA.issuer, ADA.subject, StationRole.INSTRUCTOR)
     entered = link(people, teacher, "Ada", "271828")
     assert (entered.role, entered.may_be_more) == (StationRole.STUDENT, True)
     with pytest.raises(WrongPasswordError):
@@ -589,7 +589,7 @@ def test_a_role_is_given_once_by_the_password_and_taken_by_the_groups_at_any_tim
     later = enter(people, teacher)
     assert (later.role, later.may_be_more) == (StationRole.INSTRUCTOR, False)
     assert enter(people, ADA).role is StationRole.STUDENT  # out of the group
-    more = enter(people, Identity(ADA.issuer, ADA.subject, StationRole.TECHNICIAN))
+    more = enter(people, HospitalIdentity(ADA.issuer, ADA.subject, StationRole.TECHNICIAN))
     assert (more.role, more.may_be_more) == (StationRole.INSTRUCTOR, True)
     given = [one for one in entries(people.folder) if one.what == "role given"]
     assert [(one.who, one.about) for one in given] == [("instructor", (entered.person.key,))]
@@ -600,7 +600,7 @@ def test_who_is_erased_or_unlinked_is_somebody_new(people, tmp_path):
     erase_person("Ada", tmp_path / "sessions", True, people)
     assert people.names() == {}
     assert enter(people, ADA) is None
-    teacher = Identity(ADA.issuer, ADA.subject, StationRole.INSTRUCTOR)
+    teacher = HospitalIdentity(ADA.issuer, ADA.subject, StationRole.INSTRUCTOR)
     entered = give_role(people, link(people, teacher, "Bea", "271828"), PASSWORD)
     assert unlink(people, "p-nobody") == 0
     assert unlink(people, entered.person.key) == 1

@@ -20,12 +20,13 @@ from app.exchange.openid.links import (
 from app.exchange.openid.place import OpenIdPlace, is_configured, place_of_openid, put_openid
 from app.exchange.openid.provider import discover, published_keys
 from app.exchange.openid.question import PATIENCE, Question, ask
-from app.exchange.openid.roles import Identity, StationRole
+from app.exchange.openid.roles import HospitalIdentity, StationRole
+from app.exchange.openid.tokens import require_joserfc
 
 __all__ = [
     "PATIENCE",
     "Entered",
-    "Identity",
+    "HospitalIdentity",
     "OpenIdError",
     "OpenIdPlace",
     "Question",
@@ -40,5 +41,6 @@ __all__ = [
     "place_of_openid",
     "published_keys",
     "put_openid",
+    "require_joserfc",
     "unlink",
 ]

@@ -17,7 +17,7 @@ from typing import Final
 
 from app.core.messages import sentence
 from app.exchange.openid.errors import OpenIdError
-from app.exchange.openid.roles import Identity, StationRole
+from app.exchange.openid.roles import HospitalIdentity, StationRole
 from app.session.accounts import entry_of
 from app.session.audit import INSTRUCTOR, note
 from app.session.people import People, Person
@@ -57,7 +57,7 @@ class Entered:
         return self.allowed.rank > self.given.rank
 
 
-def enter(people: People, identity: Identity) -> Entered | None:
+def enter(people: People, identity: HospitalIdentity) -> Entered | None:
     """Let in whom the provider has signed in; None for somebody who is not linked yet.
 
     Raises:
@@ -75,7 +75,7 @@ def enter(people: People, identity: Identity) -> Entered | None:
     return Entered(person, _given(names, key), identity.allowed)
 
 
-def link(people: People, identity: Identity, pseudonym: str, pin: str) -> Entered:
+def link(people: People, identity: HospitalIdentity, pseudonym: str, pin: str) -> Entered:
     """Link somebody, who chooses pseudonym and PIN, or gives those that he has here already.
 
     Raises:
@@ -152,7 +152,7 @@ def unlink(people: People, key: str = "") -> int:
 
 
 # --- inside ---------------------------------------------------------------------------------------
-def _digests(people: People, identity: Identity) -> list[str]:
+def _digests(people: People, identity: HospitalIdentity) -> list[str]:
     """Return what somebody is told by, with the station's key and with those before it."""
     key = StationKey.of(people.folder)
     text = json.dumps([identity.issuer, identity.subject]).encode()

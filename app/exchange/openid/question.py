@@ -24,7 +24,7 @@ from app.exchange.openid.provider import (
     redeemed,
     short_fault,
 )
-from app.exchange.openid.roles import Identity, role_by_groups
+from app.exchange.openid.roles import HospitalIdentity, role_by_groups
 from app.exchange.openid.tokens import claims_of, require_joserfc
 
 PATIENCE: Final = 300.0
@@ -71,7 +71,9 @@ class Question:
         sign = "&" if "?" in self.provider.authorize else "?"
         return f"{self.provider.authorize}{sign}{urlencode(fields)}"
 
-    def identity(self, progress: Progress | None = None, patience: float = PATIENCE) -> Identity:
+    def identity(
+        self, progress: Progress | None = None, patience: float = PATIENCE
+    ) -> HospitalIdentity:
         """Wait for the answer, redeem it, and return who that is; ends the question.
 
         Args:
@@ -102,7 +104,7 @@ class Question:
         keys = published_keys(self.place, self.provider)
         claims = claims_of(token, keys, self.place, self.nonce, self.begun, time.time())
         allowed = role_by_groups(claims, self.place.claim, self.place.groups)
-        return Identity(self.place.issuer, claims["sub"], allowed)
+        return HospitalIdentity(self.place.issuer, claims["sub"], allowed)
 
     def close(self) -> None:
         """Wait no more; idempotent."""

@@ -22,7 +22,7 @@ class StationRole(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Identity:
+class HospitalIdentity:
     """Somebody as the provider knows him, for the moment of a sign-in; kept nowhere.
 
     Attributes:

@@ -13,7 +13,7 @@ from app.core.progress import Progress
 from app.exchange.openid import (
     PATIENCE,
     Entered,
-    Identity,
+    HospitalIdentity,
     Question,
     ask,
     enter,
@@ -203,11 +203,11 @@ class HospitalSignIn(QObject):
         self._question = question
         people, patience = self._doors.people, self.patience
 
-        def work(progress: Progress) -> tuple[Identity, Entered | None]:
+        def work(progress: Progress) -> tuple[HospitalIdentity, Entered | None]:
             identity = question.identity(progress, patience)
             return identity, enter(people, identity)
 
-        def done(result: tuple[Identity, Entered | None]) -> None:
+        def done(result: tuple[HospitalIdentity, Entered | None]) -> None:
             identity, entered = result
             dialog.accept()
             window = self._doors.parent().window()
@@ -221,7 +221,7 @@ class HospitalSignIn(QObject):
         self._run(dialog, work, done)
         dialog.show_asked(self._browse(question.address))
 
-    def _link(self, identity: Identity) -> None:
+    def _link(self, identity: HospitalIdentity) -> None:
         """Let somebody who is new here choose pseudonym and PIN, once."""
         words = tr(
             "The hospital knows you, this station does not yet. Choose a pseudonym, which screens "
