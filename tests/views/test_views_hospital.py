@@ -1,6 +1,9 @@
 """Sign-in by the hospital in the window: where configured, patient, and undone by a cancel."""
 
+import json
 import sys
+import threading
+import time
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -192,6 +195,29 @@ def test_a_sign_in_that_is_cancelled_leaves_nothing_that_listens(feature, settle
     assert feature.hospital._task is None
     assert question.listener._server is None
     assert issuer.redeemed == []
+
+
+def test_a_sign_in_that_is_cancelled_before_the_provider_answers_leaves_nothing_that_listens(
+    feature, settle, issuer
+):
+    def slow(link):
+        time.sleep(0.4)
+        document = json.dumps(issuer._discovery()).encode()
+        link.wfile.write(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\n\r\n" % len(document))
+        link.wfile.write(document)
+
+    issuer.faults["/.well-known/openid-configuration"] = slow
+    feature.sign_in_student()
+    hospital_button(feature.dialog)[0].click()
+    assert settle(lambda: issuer.paths)
+    feature.dialog.reject()
+    assert settle(lambda: not named("acus-background"))
+    assert settle(lambda: not named("acus-openid"))
+    assert feature.opened == []
+
+
+def named(name):
+    return [one for one in threading.enumerate() if one.name == name]
 
 
 def test_a_button_that_is_pressed_twice_asks_once(feature, settle, issuer):

@@ -7,7 +7,6 @@ import hashlib
 import secrets
 import time
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Final
 from urllib.parse import urlencode
@@ -146,18 +145,16 @@ class Question:
             )
 
 
-def ask(place: OpenIdPlace, done: str, wrong: str, progress: Progress | None = None) -> Question:
+def ask(place: OpenIdPlace, done: str, wrong: str) -> Question:
     """Begin a sign-in: ask what the provider offers, and listen for the browser.
 
     Args:
         place: of the provider.
         done: what the browser shows in the end, in the user's language.
         wrong: what it shows of anything else.
-        progress: asked in the end whether it is still wanted.
 
     Raises:
         OpenIdError: if the provider cannot be asked, or this computer cannot listen.
-        Cancelled: if that was asked for.
     """
     require_joserfc()
     begun, provider = time.time(), discover(place)
@@ -172,11 +169,4 @@ def ask(place: OpenIdPlace, done: str, wrong: str, progress: Progress | None = N
                 reason=error.strerror or error,
             )
         ) from error
-    question = Question(place, provider, listener, begun)
-    try:
-        (progress or Progress()).check()
-    except BaseException:
-        with suppress(OSError):
-            question.close()
-        raise
-    return question
+    return Question(place, provider, listener, begun)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QObject, QUrl
 from PySide6.QtGui import QDesktopServices, QGuiApplication, QShowEvent
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QVBoxLayout, QWidget
 
 from app.core.errors import AcusError
-from app.core.progress import Progress
+from app.core.progress import Cancelled, Progress
 from app.exchange.openid import (
     PATIENCE,
     Entered,
@@ -158,16 +158,24 @@ class HospitalSignIn(QObject):
             return
         dialog = WaitingDialog(place.name, self._doors.parent())
         self._dialog = dialog
-        dialog.finished.connect(lambda _: self._end(dialog))
         dialog.again.clicked.connect(lambda: self._again(dialog))
         dialog.copy.clicked.connect(self._copy)
         self._doors.open(dialog)
         done = tr("That is all here: go back to Acus, and close this page.")
         wrong = tr("This is no answer to a sign-in that Acus waits for. Go back to Acus.")
+        asked: list[Question] = []
 
         def work(progress: Progress) -> Question:
-            return ask(place, done, wrong, progress)
+            question = ask(place, done, wrong)
+            asked.append(question)  # so that one of the two ends it, whenever the dialog goes
+            try:
+                progress.check()
+            except Cancelled:
+                question.close()
+                raise
+            return question
 
+        dialog.finished.connect(lambda _: self._end(dialog, asked))
         self._run(dialog, work, self._asked)
 
     def close(self) -> None:
@@ -283,7 +291,9 @@ class HospitalSignIn(QObject):
         if question is not None:
             question.close()
 
-    def _end(self, dialog: WaitingDialog) -> None:
+    def _end(self, dialog: WaitingDialog, asked: Sequence[Question]) -> None:
+        for question in asked:
+            question.close()
         if dialog is self._dialog:
             self._dialog = None
             self._stop()
