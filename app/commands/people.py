@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from app.commands import completion
+from app.commands import completion, people_openid
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor, secret
 from app.commands.reader_language import local, template
@@ -35,6 +35,7 @@ def register(app: typer.Typer) -> None:
     people.command("erase")(erase)
     people.command("instructor")(set_instructor)
     people.command("remark")(remark)
+    people_openid.add_to(people)
     app.add_typer(people, name="people")
     course = Commands(help="Courses: exercises in order, for groups.")
     course.command("list")(list_courses)

@@ -39,6 +39,11 @@ WHAT: Final = (
     "password changed",
     "password recovered",
     "signed in",
+    "signed in by hospital",
+    "sign-in linked",
+    "sign-in unlinked",
+    "sign-in configured",
+    "role given",
     "students added",
     "students changed",
     "PIN set",
@@ -78,7 +83,7 @@ class AuditEntry:
     Attributes:
         number: its place, from 1.
         time: by this computer's clock, ISO 8601 in UTC.
-        who: `instructor`, `account` or a student's random key.
+        who: `instructor`, `account` or a person's random key.
         what: one of `WHAT`.
         about: keys of people, ids of attempts, exercises, courses or stations.
         count: how many they are, where they are too many to stand here.

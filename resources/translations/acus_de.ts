@@ -19357,6 +19357,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} persons are linked</source>
+            <translation type="unfinished">
+                <numerusform>{n} Person ist verknüpft</numerusform>
+                <numerusform>{n} Personen sind verknüpft</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
                 <numerusform>{n} Region {reason} ausgelassen: Die Datei sagt nicht, was sie ist</numerusform>
@@ -19566,6 +19573,66 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>An attempt is running: end it before the role is changed</source>
             <translation type="unfinished">Ein Versuch läuft: Beenden Sie ihn, bevor Sie die Rolle wechseln</translation>
+        </message>
+        <message>
+            <source>Sign in by the hospital</source>
+            <translation type="unfinished">Mit dem Krankenhaus anmelden</translation>
+        </message>
+        <message>
+            <source>The browser shows the sign-in page of {hospital}. Sign in there, then come back here: this ends by itself.</source>
+            <translation type="unfinished">Der Browser zeigt die Anmeldeseite von {hospital}. Melden Sie sich dort an und kommen Sie hierher zurück: Dies endet von selbst.</translation>
+        </message>
+        <message>
+            <source>Waiting for the browser</source>
+            <translation type="unfinished">Warten auf den Browser</translation>
+        </message>
+        <message>
+            <source>Open the page again</source>
+            <translation type="unfinished">Seite nochmals öffnen</translation>
+        </message>
+        <message>
+            <source>Copy its address</source>
+            <translation type="unfinished">Adresse kopieren</translation>
+        </message>
+        <message>
+            <source>No browser opened: copy the address into one on this computer.</source>
+            <translation type="unfinished">Kein Browser ging auf: Kopieren Sie die Adresse in einen auf diesem Rechner.</translation>
+        </message>
+        <message>
+            <source>Nobody was signed in. Pseudonym and PIN work as before.</source>
+            <translation type="unfinished">Niemand wurde angemeldet. Pseudonym und PIN gehen wie bisher.</translation>
+        </message>
+        <message>
+            <source>The hospital knows you, this station does not yet. Choose a pseudonym, which screens show, and a PIN; if you have both here already, give those. It is asked once; no name and no address of the hospital is kept.</source>
+            <translation type="unfinished">Das Krankenhaus kennt Sie, dieser Platz noch nicht. Wählen Sie ein Pseudonym, das auf Bildschirmen steht, und eine PIN; haben Sie hier schon beides, geben Sie diese an. Gefragt wird einmal; kein Name und keine Adresse des Krankenhauses wird aufbewahrt.</translation>
+        </message>
+        <message>
+            <source>The hospital's groups allow you the role {role}. This station gives it once, by the instructor's password.</source>
+            <translation type="unfinished">Die Gruppen des Krankenhauses erlauben Ihnen die Rolle {role}. Dieser Platz gibt sie einmal, mit dem Passwort des Kursleiters.</translation>
+        </message>
+        <message>
+            <source>Go on without it</source>
+            <translation type="unfinished">Ohne sie weiter</translation>
+        </message>
+        <message>
+            <source>Try again</source>
+            <translation type="unfinished">Nochmals versuchen</translation>
+        </message>
+        <message>
+            <source>Sign in by the hospital…</source>
+            <translation type="unfinished">Mit dem Krankenhaus anmelden…</translation>
+        </message>
+        <message>
+            <source>the two PINs are not the same: type them again</source>
+            <translation type="unfinished">die beiden PINs sind nicht gleich: beide neu eingeben</translation>
+        </message>
+        <message>
+            <source>PIN again</source>
+            <translation type="unfinished">PIN noch einmal</translation>
+        </message>
+        <message>
+            <source>Your pseudonym at this station</source>
+            <translation type="unfinished">Ihr Pseudonym an diesem Platz</translation>
         </message>
         <message>
             <source>Role: {role}</source>
@@ -22268,6 +22335,166 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>PACS {name} has no web address: `acus pacs add {name} --web https://…`</source>
             <translation>Das PACS {name} hat keine Webadresse: `acus pacs add {name} --web https://…`</translation>
+        </message>
+        <message>
+            <source>no provider is named: `acus people openid --issuer URL --client ID`</source>
+            <translation type="unfinished">kein Anbieter ist genannt: `acus people openid --issuer URL --client ID`</translation>
+        </message>
+        <message>
+            <source>{issuer:?{issuer} signs people in too|only this station signs people in}</source>
+            <translation type="unfinished">{issuer:?auch {issuer} meldet Personen an|nur dieser Platz meldet Personen an}</translation>
+        </message>
+        <message>
+            <source>it works: the groups allow the role {role} at most; nobody was signed in here</source>
+            <translation type="unfinished">es geht: die Gruppen erlauben höchstens die Rolle {role}; hier wurde niemand angemeldet</translation>
+        </message>
+        <message>
+            <source>That is all here: go back to Acus, and close this page.</source>
+            <translation type="unfinished">Das ist hier alles: Gehen Sie zu Acus zurück und schließen Sie diese Seite.</translation>
+        </message>
+        <message>
+            <source>This is no answer to a sign-in that Acus waits for. Go back to Acus.</source>
+            <translation type="unfinished">Das ist keine Antwort auf eine Anmeldung, auf die Acus wartet. Gehen Sie zu Acus zurück.</translation>
+        </message>
+        <message>
+            <source>sign in on the page that opens: {address}</source>
+            <translation type="unfinished">auf der Seite anmelden, die aufgeht: {address}</translation>
+        </message>
+        <message>
+            <source>Secret of the client</source>
+            <translation type="unfinished">Geheimnis des Clients</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is known here already, and {error}; if it is not yours, choose another pseudonym</source>
+            <translation type="unfinished">{pseudonym} ist hier schon bekannt, und {error}; gehört es Ihnen nicht, wählen Sie ein anderes Pseudonym</translation>
+        </message>
+        <message>
+            <source>{pseudonym}, or who you are at the hospital, is linked already: choose another pseudonym, or ask the instructor to undo the link (`acus people openid --unlink`)</source>
+            <translation type="unfinished">{pseudonym}, oder wer Sie im Krankenhaus sind, ist schon verknüpft: ein anderes Pseudonym wählen, oder den Kursleiter bitten, die Verknüpfung zu lösen (`acus people openid --unlink`)</translation>
+        </message>
+        <message>
+            <source>issuer: {fault}</source>
+            <translation type="unfinished">Aussteller: {fault}</translation>
+        </message>
+        <message>
+            <source>issuer: {issuer} has a part behind #: give the address without it</source>
+            <translation type="unfinished">Aussteller: {issuer} hat einen Teil hinter #: die Adresse ohne ihn angeben</translation>
+        </message>
+        <message>
+            <source>{setting}: {entered!r} cannot be one: give 1 to {longest} printable letters</source>
+            <translation type="unfinished">{setting}: {entered!r} geht nicht: 1 bis {longest} druckbare Zeichen angeben</translation>
+        </message>
+        <message>
+            <source>the group {group!r} stands for two roles: map it to one</source>
+            <translation type="unfinished">die Gruppe {group!r} steht für zwei Rollen: sie einer zuordnen</translation>
+        </message>
+        <message>
+            <source>{path} does not say who signs people in: give it again, `acus people openid --issuer URL --client ID`</source>
+            <translation type="unfinished">{path} sagt nicht, wer Personen anmeldet: neu angeben, `acus people openid --issuer URL --client ID`</translation>
+        </message>
+        <message>
+            <source>set the instructor's password first (`acus people instructor`): a role is given with it, and digests need the station's key</source>
+            <translation type="unfinished">zuerst das Passwort des Kursleiters setzen (`acus people instructor`): mit ihm wird eine Rolle gegeben, und Prüfsummen brauchen den Schlüssel des Platzes</translation>
+        </message>
+        <message>
+            <source>{where} is the document of the issuer {other!r}, not of {issuer!r}: if that is the hospital's, give it letter by letter</source>
+            <translation type="unfinished">{where} ist das Dokument des Ausstellers {other!r}, nicht von {issuer!r}: ist das der des Krankenhauses, ihn Buchstabe für Buchstabe angeben</translation>
+        </message>
+        <message>
+            <source>{name} offers none of {taken} ({field}): ask who runs it to allow one for this client</source>
+            <translation type="unfinished">{name} bietet nichts von {taken} an ({field}): den Betreiber bitten, eines für diesen Client zu erlauben</translation>
+        </message>
+        <message>
+            <source>{name} gives no token ({fault}): sign in again; if it stays so, ask who runs it whether {client!r} is a client with PKCE there, and whether it has a secret</source>
+            <translation type="unfinished">{name} gibt kein Token ({fault}): nochmals anmelden; bleibt es so, den Betreiber fragen, ob {client!r} dort ein Client mit PKCE ist und ob er ein Geheimnis hat</translation>
+        </message>
+        <message>
+            <source>{name} gives no ID token: ask who runs it to allow {client!r} the scope openid</source>
+            <translation type="unfinished">{name} gibt kein ID-Token: den Betreiber bitten, {client!r} den Scope openid zu erlauben</translation>
+        </message>
+        <message>
+            <source>{where} does not answer, or not to the end, within {seconds:g} s: sign in by pseudonym and PIN, and try again later</source>
+            <translation type="unfinished">{where} antwortet nicht, oder nicht zu Ende, innerhalb von {seconds:g} s: mit Pseudonym und PIN anmelden und es später nochmals versuchen</translation>
+        </message>
+        <message>
+            <source>{where} sends on to {other}: it was not followed; if the provider is there, give that address as issuer</source>
+            <translation type="unfinished">{where} verweist auf {other}: dem wurde nicht gefolgt; ist der Anbieter dort, diese Adresse als Aussteller angeben</translation>
+        </message>
+        <message>
+            <source>{address} is this computer, which the provider is not</source>
+            <translation type="unfinished">{address} ist dieser Rechner, der Anbieter ist es nicht</translation>
+        </message>
+        <message>
+            <source>{address} is plain http</source>
+            <translation type="unfinished">{address} ist unverschlüsseltes http</translation>
+        </message>
+        <message>
+            <source>the document of {issuer} cannot be used, its {field}: {fault}; ask who runs it</source>
+            <translation type="unfinished">das Dokument von {issuer} ist nicht zu gebrauchen, darin {field}: {fault}; den Betreiber fragen</translation>
+        </message>
+        <message>
+            <source>what answers at {where} is no provider of OpenID Connect, or cannot now ({status}): sign in by pseudonym and PIN; if it stays so, look at the issuer {issuer}</source>
+            <translation type="unfinished">was unter {where} antwortet, ist kein Anbieter von OpenID Connect oder kann gerade nicht ({status}): mit Pseudonym und PIN anmelden; bleibt es so, den Aussteller {issuer} prüfen</translation>
+        </message>
+        <message>
+            <source>{name} did not sign you in ({fault}): try again, or sign in by pseudonym and PIN</source>
+            <translation type="unfinished">{name} hat Sie nicht angemeldet ({fault}): nochmals versuchen, oder mit Pseudonym und PIN anmelden</translation>
+        </message>
+        <message>
+            <source>no answer of {name} came, but what belongs to another question, and was refused: try again, and sign in on the page that opens then</source>
+            <translation type="unfinished">von {name} kam keine Antwort, sondern etwas, das zu einer anderen Frage gehört und abgewiesen wurde: nochmals versuchen und sich auf der Seite anmelden, die dann aufgeht</translation>
+        </message>
+        <message>
+            <source>nobody signed in at {name} within {minutes:g} min: try again, or sign in by pseudonym and PIN</source>
+            <translation type="unfinished">innerhalb von {minutes:g} min hat sich niemand bei {name} angemeldet: nochmals versuchen, oder mit Pseudonym und PIN anmelden</translation>
+        </message>
+        <message>
+            <source>the answer in the browser is not of {issuer}: nobody was signed in; try again, and if it stays so ask who runs it</source>
+            <translation type="unfinished">die Antwort im Browser ist nicht von {issuer}: niemand wurde angemeldet; nochmals versuchen, und bleibt es so, den Betreiber fragen</translation>
+        </message>
+        <message>
+            <source>this computer cannot listen for the browser ({reason}): sign in by pseudonym and PIN</source>
+            <translation type="unfinished">dieser Rechner kann nicht auf den Browser hören ({reason}): mit Pseudonym und PIN anmelden</translation>
+        </message>
+        <message>
+            <source>it is not signed by any of {taken}</source>
+            <translation type="unfinished">es ist mit keinem von {taken} unterschrieben</translation>
+        </message>
+        <message>
+            <source>no key that it publishes has signed it, or it is damaged</source>
+            <translation type="unfinished">kein Schlüssel, den er veröffentlicht, hat es unterschrieben, oder es ist beschädigt</translation>
+        </message>
+        <message>
+            <source>sign in by pseudonym and PIN</source>
+            <translation type="unfinished">mit Pseudonym und PIN anmelden</translation>
+        </message>
+        <message>
+            <source>{name} did not ask who is here, but took who had signed in before (auth_time): sign out there in the browser, and try again</source>
+            <translation type="unfinished">{name} hat nicht gefragt, wer hier ist, sondern genommen, wer sich vorher angemeldet hatte (auth_time): dort im Browser abmelden und nochmals versuchen</translation>
+        </message>
+        <message>
+            <source>its time is over or not yet come ({name}): look at this computer's clock</source>
+            <translation type="unfinished">seine Zeit ist vorbei oder noch nicht gekommen ({name}): die Uhr dieses Rechners prüfen</translation>
+        </message>
+        <message>
+            <source>it answers another question ({name})</source>
+            <translation type="unfinished">es antwortet auf eine andere Frage ({name})</translation>
+        </message>
+        <message>
+            <source>it is for another program ({name})</source>
+            <translation type="unfinished">es ist für ein anderes Programm ({name})</translation>
+        </message>
+        <message>
+            <source>another provider made it ({name})</source>
+            <translation type="unfinished">ein anderer Anbieter hat es gemacht ({name})</translation>
+        </message>
+        <message>
+            <source>it lacks {name}, or holds nonsense there</source>
+            <translation type="unfinished">es fehlt {name}, oder dort steht Unsinn</translation>
+        </message>
+        <message>
+            <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
+            <translation type="unfinished">dem Token von {name} wird nicht geglaubt: {reason}; niemand wurde angemeldet: nochmals versuchen, und bleibt es so, den Betreiber fragen</translation>
         </message>
     </context>
 </TS>

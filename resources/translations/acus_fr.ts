@@ -19357,6 +19357,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} persons are linked</source>
+            <translation type="unfinished">
+                <numerusform>{n} personne est liée</numerusform>
+                <numerusform>{n} personnes sont liées</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} regions {reason} left out: the file does not say what it is</source>
             <translation type="unfinished">
                 <numerusform>{n} région {reason} écartée : le fichier ne dit pas ce qu’elle est</numerusform>
@@ -19566,6 +19573,66 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>An attempt is running: end it before the role is changed</source>
             <translation type="unfinished">Un essai est en cours : terminez-le avant de changer de rôle</translation>
+        </message>
+        <message>
+            <source>Sign in by the hospital</source>
+            <translation type="unfinished">Se connecter par l'hôpital</translation>
+        </message>
+        <message>
+            <source>The browser shows the sign-in page of {hospital}. Sign in there, then come back here: this ends by itself.</source>
+            <translation type="unfinished">Le navigateur montre la page de connexion de {hospital}. Connectez-vous là, puis revenez ici : ceci se ferme tout seul.</translation>
+        </message>
+        <message>
+            <source>Waiting for the browser</source>
+            <translation type="unfinished">En attente du navigateur</translation>
+        </message>
+        <message>
+            <source>Open the page again</source>
+            <translation type="unfinished">Rouvrir la page</translation>
+        </message>
+        <message>
+            <source>Copy its address</source>
+            <translation type="unfinished">Copier son adresse</translation>
+        </message>
+        <message>
+            <source>No browser opened: copy the address into one on this computer.</source>
+            <translation type="unfinished">Aucun navigateur ne s'est ouvert : copiez l'adresse dans un navigateur de cet ordinateur.</translation>
+        </message>
+        <message>
+            <source>Nobody was signed in. Pseudonym and PIN work as before.</source>
+            <translation type="unfinished">Personne n'a été connecté. Le pseudonyme et le PIN marchent comme avant.</translation>
+        </message>
+        <message>
+            <source>The hospital knows you, this station does not yet. Choose a pseudonym, which screens show, and a PIN; if you have both here already, give those. It is asked once; no name and no address of the hospital is kept.</source>
+            <translation type="unfinished">L'hôpital vous connaît, ce poste pas encore. Choisissez un pseudonyme, que les écrans montrent, et un PIN ; si vous avez déjà les deux ici, donnez ceux-là. La question n'est posée qu'une fois ; ni nom ni adresse de l'hôpital n'est gardé.</translation>
+        </message>
+        <message>
+            <source>The hospital's groups allow you the role {role}. This station gives it once, by the instructor's password.</source>
+            <translation type="unfinished">Les groupes de l'hôpital vous permettent le rôle {role}. Ce poste le donne une fois, par le mot de passe du formateur.</translation>
+        </message>
+        <message>
+            <source>Go on without it</source>
+            <translation type="unfinished">Continuer sans lui</translation>
+        </message>
+        <message>
+            <source>Try again</source>
+            <translation type="unfinished">Réessayer</translation>
+        </message>
+        <message>
+            <source>Sign in by the hospital…</source>
+            <translation type="unfinished">Se connecter par l'hôpital…</translation>
+        </message>
+        <message>
+            <source>the two PINs are not the same: type them again</source>
+            <translation type="unfinished">les deux PIN ne sont pas les mêmes : les saisir de nouveau</translation>
+        </message>
+        <message>
+            <source>PIN again</source>
+            <translation type="unfinished">PIN encore une fois</translation>
+        </message>
+        <message>
+            <source>Your pseudonym at this station</source>
+            <translation type="unfinished">Votre pseudonyme à ce poste</translation>
         </message>
         <message>
             <source>Role: {role}</source>
@@ -22268,6 +22335,166 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>PACS {name} has no web address: `acus pacs add {name} --web https://…`</source>
             <translation>Le PACS {name} n’a pas d’adresse web : `acus pacs add {name} --web https://…`</translation>
+        </message>
+        <message>
+            <source>no provider is named: `acus people openid --issuer URL --client ID`</source>
+            <translation type="unfinished">aucun fournisseur n'est nommé : `acus people openid --issuer URL --client ID`</translation>
+        </message>
+        <message>
+            <source>{issuer:?{issuer} signs people in too|only this station signs people in}</source>
+            <translation type="unfinished">{issuer:?{issuer} connecte aussi des personnes|seul ce poste connecte des personnes}</translation>
+        </message>
+        <message>
+            <source>it works: the groups allow the role {role} at most; nobody was signed in here</source>
+            <translation type="unfinished">cela marche : les groupes permettent au plus le rôle {role} ; personne n'a été connecté ici</translation>
+        </message>
+        <message>
+            <source>That is all here: go back to Acus, and close this page.</source>
+            <translation type="unfinished">C'est tout ici : revenez à Acus et fermez cette page.</translation>
+        </message>
+        <message>
+            <source>This is no answer to a sign-in that Acus waits for. Go back to Acus.</source>
+            <translation type="unfinished">Ce n'est pas la réponse à une connexion qu'Acus attend. Revenez à Acus.</translation>
+        </message>
+        <message>
+            <source>sign in on the page that opens: {address}</source>
+            <translation type="unfinished">se connecter sur la page qui s'ouvre : {address}</translation>
+        </message>
+        <message>
+            <source>Secret of the client</source>
+            <translation type="unfinished">Secret du client</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is known here already, and {error}; if it is not yours, choose another pseudonym</source>
+            <translation type="unfinished">{pseudonym} est déjà connu ici, et {error} ; s'il n'est pas le vôtre, choisir un autre pseudonyme</translation>
+        </message>
+        <message>
+            <source>{pseudonym}, or who you are at the hospital, is linked already: choose another pseudonym, or ask the instructor to undo the link (`acus people openid --unlink`)</source>
+            <translation type="unfinished">{pseudonym}, ou qui vous êtes à l'hôpital, est déjà lié : choisir un autre pseudonyme, ou demander au formateur de défaire le lien (`acus people openid --unlink`)</translation>
+        </message>
+        <message>
+            <source>issuer: {fault}</source>
+            <translation type="unfinished">émetteur : {fault}</translation>
+        </message>
+        <message>
+            <source>issuer: {issuer} has a part behind #: give the address without it</source>
+            <translation type="unfinished">émetteur : {issuer} a une partie après # : donner l'adresse sans elle</translation>
+        </message>
+        <message>
+            <source>{setting}: {entered!r} cannot be one: give 1 to {longest} printable letters</source>
+            <translation type="unfinished">{setting} : {entered!r} ne convient pas : donner 1 à {longest} caractères imprimables</translation>
+        </message>
+        <message>
+            <source>the group {group!r} stands for two roles: map it to one</source>
+            <translation type="unfinished">le groupe {group!r} vaut pour deux rôles : l'attribuer à un seul</translation>
+        </message>
+        <message>
+            <source>{path} does not say who signs people in: give it again, `acus people openid --issuer URL --client ID`</source>
+            <translation type="unfinished">{path} ne dit pas qui connecte les personnes : le redonner, `acus people openid --issuer URL --client ID`</translation>
+        </message>
+        <message>
+            <source>set the instructor's password first (`acus people instructor`): a role is given with it, and digests need the station's key</source>
+            <translation type="unfinished">définir d'abord le mot de passe du formateur (`acus people instructor`) : un rôle est donné avec lui, et les empreintes demandent la clé du poste</translation>
+        </message>
+        <message>
+            <source>{where} is the document of the issuer {other!r}, not of {issuer!r}: if that is the hospital's, give it letter by letter</source>
+            <translation type="unfinished">{where} est le document de l'émetteur {other!r}, pas de {issuer!r} : si c'est celui de l'hôpital, le donner lettre par lettre</translation>
+        </message>
+        <message>
+            <source>{name} offers none of {taken} ({field}): ask who runs it to allow one for this client</source>
+            <translation type="unfinished">{name} n'offre rien de {taken} ({field}) : demander à qui le gère d'en permettre un pour ce client</translation>
+        </message>
+        <message>
+            <source>{name} gives no token ({fault}): sign in again; if it stays so, ask who runs it whether {client!r} is a client with PKCE there, and whether it has a secret</source>
+            <translation type="unfinished">{name} ne donne pas de jeton ({fault}) : se connecter de nouveau ; si cela dure, demander à qui le gère si {client!r} y est un client avec PKCE, et s'il a un secret</translation>
+        </message>
+        <message>
+            <source>{name} gives no ID token: ask who runs it to allow {client!r} the scope openid</source>
+            <translation type="unfinished">{name} ne donne pas de jeton d'identité : demander à qui le gère de permettre à {client!r} le scope openid</translation>
+        </message>
+        <message>
+            <source>{where} does not answer, or not to the end, within {seconds:g} s: sign in by pseudonym and PIN, and try again later</source>
+            <translation type="unfinished">{where} ne répond pas, ou pas jusqu'au bout, en {seconds:g} s : se connecter par pseudonyme et PIN, et réessayer plus tard</translation>
+        </message>
+        <message>
+            <source>{where} sends on to {other}: it was not followed; if the provider is there, give that address as issuer</source>
+            <translation type="unfinished">{where} renvoie vers {other} : ce n'a pas été suivi ; si le fournisseur est là, donner cette adresse comme émetteur</translation>
+        </message>
+        <message>
+            <source>{address} is this computer, which the provider is not</source>
+            <translation type="unfinished">{address} est cet ordinateur, ce que le fournisseur n'est pas</translation>
+        </message>
+        <message>
+            <source>{address} is plain http</source>
+            <translation type="unfinished">{address} est en http non chiffré</translation>
+        </message>
+        <message>
+            <source>the document of {issuer} cannot be used, its {field}: {fault}; ask who runs it</source>
+            <translation type="unfinished">le document de {issuer} est inutilisable, son {field} : {fault} ; demander à qui le gère</translation>
+        </message>
+        <message>
+            <source>what answers at {where} is no provider of OpenID Connect, or cannot now ({status}): sign in by pseudonym and PIN; if it stays so, look at the issuer {issuer}</source>
+            <translation type="unfinished">ce qui répond à {where} n'est pas un fournisseur d'OpenID Connect, ou ne peut pas maintenant ({status}) : se connecter par pseudonyme et PIN ; si cela dure, vérifier l'émetteur {issuer}</translation>
+        </message>
+        <message>
+            <source>{name} did not sign you in ({fault}): try again, or sign in by pseudonym and PIN</source>
+            <translation type="unfinished">{name} ne vous a pas connecté ({fault}) : réessayer, ou se connecter par pseudonyme et PIN</translation>
+        </message>
+        <message>
+            <source>no answer of {name} came, but what belongs to another question, and was refused: try again, and sign in on the page that opens then</source>
+            <translation type="unfinished">aucune réponse de {name} n'est venue, mais ce qui appartient à une autre question et a été refusé : réessayer, et se connecter sur la page qui s'ouvre alors</translation>
+        </message>
+        <message>
+            <source>nobody signed in at {name} within {minutes:g} min: try again, or sign in by pseudonym and PIN</source>
+            <translation type="unfinished">personne ne s'est connecté à {name} en {minutes:g} min : réessayer, ou se connecter par pseudonyme et PIN</translation>
+        </message>
+        <message>
+            <source>the answer in the browser is not of {issuer}: nobody was signed in; try again, and if it stays so ask who runs it</source>
+            <translation type="unfinished">la réponse dans le navigateur n'est pas de {issuer} : personne n'a été connecté ; réessayer, et si cela dure demander à qui le gère</translation>
+        </message>
+        <message>
+            <source>this computer cannot listen for the browser ({reason}): sign in by pseudonym and PIN</source>
+            <translation type="unfinished">cet ordinateur ne peut pas écouter le navigateur ({reason}) : se connecter par pseudonyme et PIN</translation>
+        </message>
+        <message>
+            <source>it is not signed by any of {taken}</source>
+            <translation type="unfinished">il n'est signé par aucun de {taken}</translation>
+        </message>
+        <message>
+            <source>no key that it publishes has signed it, or it is damaged</source>
+            <translation type="unfinished">aucune clé qu'il publie ne l'a signé, ou il est endommagé</translation>
+        </message>
+        <message>
+            <source>sign in by pseudonym and PIN</source>
+            <translation type="unfinished">se connecter par pseudonyme et PIN</translation>
+        </message>
+        <message>
+            <source>{name} did not ask who is here, but took who had signed in before (auth_time): sign out there in the browser, and try again</source>
+            <translation type="unfinished">{name} n'a pas demandé qui est ici, mais a pris qui s'était connecté avant (auth_time) : s'y déconnecter dans le navigateur, et réessayer</translation>
+        </message>
+        <message>
+            <source>its time is over or not yet come ({name}): look at this computer's clock</source>
+            <translation type="unfinished">son temps est passé ou pas encore venu ({name}) : vérifier l'horloge de cet ordinateur</translation>
+        </message>
+        <message>
+            <source>it answers another question ({name})</source>
+            <translation type="unfinished">il répond à une autre question ({name})</translation>
+        </message>
+        <message>
+            <source>it is for another program ({name})</source>
+            <translation type="unfinished">il est pour un autre programme ({name})</translation>
+        </message>
+        <message>
+            <source>another provider made it ({name})</source>
+            <translation type="unfinished">un autre fournisseur l'a fait ({name})</translation>
+        </message>
+        <message>
+            <source>it lacks {name}, or holds nonsense there</source>
+            <translation type="unfinished">il lui manque {name}, ou il y a là un non-sens</translation>
+        </message>
+        <message>
+            <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
+            <translation type="unfinished">le jeton de {name} n'est pas cru : {reason} ; personne n'a été connecté : réessayer, et si cela dure demander à qui le gère</translation>
         </message>
     </context>
 </TS>

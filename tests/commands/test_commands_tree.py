@@ -122,6 +122,7 @@ EXAMPLES = {
     "registration list": (),
     "course list": (),
     "people list": (),
+    "people openid": (),
     "research new": ("--out", "design.yaml"),
     "research power": ("--effect", "9", "--sd", "10", "--simulations", "100"),
     "research status": (),

@@ -29,6 +29,7 @@ class Access(QObject):
         self._visitor = Visitor()
         self._role = Role.TECHNICIAN
         self._taking = False
+        self._up_to, self._who = Role.TECHNICIAN, ""
 
     @property
     def role(self) -> Role:
@@ -60,6 +61,15 @@ class Access(QObject):
         return self._visitor.instructor
 
     @property
+    def signed_in(self) -> tuple[Person | None, bool, Role, str]:
+        """Return what `sign_in` takes to let in who is here once more."""
+        return self.student, self.instructor, self._up_to, self._who
+
+    def opens(self, role: Role) -> bool:
+        """Return whether who is signed in as the instructor may sit here in a role."""
+        return self.instructor and role.rank <= self._up_to.rank
+
+    @property
     def guarded(self) -> bool:
         """Return whether an instructor's password is set."""
         return self._visitor.known.guarded
@@ -85,10 +95,25 @@ class Access(QObject):
             else tr("Only the instructor does that: change the role at the top right.")
         )
 
-    def sign_in(self, student: Person | None, instructor: bool = False) -> None:
-        """Somebody has signed in, nobody is where neither is given."""
+    def sign_in(
+        self,
+        student: Person | None,
+        instructor: bool = False,
+        up_to: Role = Role.TECHNICIAN,
+        who: str = "",
+    ) -> None:
+        """Somebody has signed in, nobody is where neither is given.
+
+        Args:
+            student: who it is.
+            instructor: whether the instructor is here, or somebody in his place.
+            up_to: the most that the instructor may sit here as; the password opens every role.
+            who: key of the person in the instructor's place; without one it is the password's.
+        """
         self._visitor = replace(self._visitor, student=student, instructor=instructor)
-        act_as(INSTRUCTOR if instructor else ACCOUNT if student is None else student.key)
+        self._up_to, self._who = up_to, who
+        named = who or INSTRUCTOR
+        act_as(named if instructor else ACCOUNT if student is None else student.key)
         self.changed.emit()
 
     def learn(self, known: Known) -> None:

@@ -16,6 +16,11 @@ class Role(StrEnum):
     INSTRUCTOR = "instructor"  # also author, course, results, patients
     TECHNICIAN = "technician"  # also robot, cameras, checks, effects, cost of accuracy
 
+    @property
+    def rank(self) -> int:
+        """Return its place, from 0."""
+        return list(Role).index(self)
+
 
 EVERYBODY: Final = frozenset(Role)
 STAFF: Final = frozenset({Role.INSTRUCTOR, Role.TECHNICIAN})

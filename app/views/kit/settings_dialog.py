@@ -96,11 +96,15 @@ class SettingsDialog(QDialog):
         self._make_room()
 
     def _make_room(self) -> None:
-        """Grow where lines that wrap need more height: else fields are laid over each other."""
-        layout = self.layout()
-        if layout is None:
-            return
-        layout.activate()
-        needed = layout.totalMinimumHeightForWidth(self.width())
-        if needed > self.height():
-            size_dialog(self, self.width(), needed)
+        make_room(self)
+
+
+def make_room(dialog: QDialog) -> None:
+    """Let a dialog grow where lines that wrap need more height: else they are cut, or overlap."""
+    layout = dialog.layout()
+    if layout is None:
+        return
+    layout.activate()
+    needed = layout.totalMinimumHeightForWidth(dialog.width())
+    if needed > dialog.height():
+        size_dialog(dialog, dialog.width(), needed)

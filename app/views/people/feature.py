@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QMessageBox
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
+from app.exchange.openid import Entered, StationRole
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
 from app.session.access import Known
@@ -45,6 +46,7 @@ from app.views.kit.text import declared, tr, tr_n, translated
 from app.views.people.curve import CurveDialog
 from app.views.people.folder_backups import FolderBackups
 from app.views.people.group_report import group_report
+from app.views.people.hospital import HospitalSignIn
 from app.views.people.leaving import LeavingChoice, LeavingDialog
 from app.views.people.lrs_link import LrsLink
 from app.views.people.pages import (
@@ -95,6 +97,7 @@ class PeopleFeature(Feature):
         folder_backups: adds backups to a folder.
         link: to the store that the stations of a school share.
         lrs: to the learning record store that is told of attempts.
+        hospital: signs people in by the hospital, where a provider is configured.
         stations: results of several stations, written and brought together.
         dialog: the one that was opened last.
     """
@@ -147,6 +150,7 @@ class PeopleFeature(Feature):
         self.link.told.connect(self.page.board.show_store)
         self.lrs = LrsLink(self._doors(), self._titles, lambda: controller.is_running, self)
         self.lrs.told.connect(self.page.board.show_lrs)
+        self.hospital = HospitalSignIn(self._doors(), self._let_in, self)
         links = self.link, self.lrs
         self.stations = StationExchange(self.page.board.stations, self._doors(), *links)
         self._connect()
@@ -170,6 +174,7 @@ class PeopleFeature(Feature):
         """End what runs, and the dialog that is open; nobody stays signed in."""
         self.link.close()
         self.lrs.close()
+        self.hospital.close()
         for task in tuple(self._running):
             task.close()
         if self.dialog is not None:
@@ -186,7 +191,9 @@ class PeopleFeature(Feature):
             ACCESS.sign_in(self._people.sign_in(pseudonym, pin))
             self.look()
 
-        self._open(EntryDialog(tr("Sign in"), fields, take, parent=self._shell.dialog_parent))
+        dialog = EntryDialog(tr("Sign in"), fields, take, parent=self._shell.dialog_parent)
+        self.hospital.offer(dialog)
+        self._open(dialog)
 
     def sign_in_instructor(self) -> None:
         """Ask for the password; the first time one is set, and the recovery key shown."""
@@ -201,7 +208,18 @@ class PeopleFeature(Feature):
 
         fields = ((tr("Password"), True),)
         parent = self._shell.dialog_parent
-        self._open(EntryDialog(tr("Sign in as the instructor"), fields, take, parent=parent))
+        dialog = EntryDialog(tr("Sign in as the instructor"), fields, take, parent=parent)
+        self.hospital.offer(dialog)
+        self._open(dialog)
+
+    def _let_in(self, entered: Entered) -> None:
+        """Take who was signed in by the hospital, in the role that station and groups allow."""
+        person, role = entered.person, entered.role
+        if role is StationRole.STUDENT:
+            ACCESS.sign_in(person)
+        else:
+            ACCESS.sign_in(None, True, Role(role.value), person.key)
+        self.look()
 
     def _set_instructor(self) -> None:
         words = tr(
@@ -678,7 +696,8 @@ class PeopleFeature(Feature):
         student.setEnabled(not here)
         alone = ACCESS.role is Role.STUDENT  # who sees what he can do, and nothing that he cannot
         show.setVisible(show.isEnabled() or not alone)
-        student.setVisible(ACCESS.has_students and not here if alone else True)
+        someone = ACCESS.has_students or self.hospital.configured
+        student.setVisible(someone and not here if alone else True)
         leave.setVisible(here or not alone)
         instructor.setEnabled(not ACCESS.instructor)
         leave.setEnabled(here)

@@ -87,7 +87,7 @@ class Rebuilding(QObject):
         edit, path, dirty = window.editor.edit, window.editor.path, window.editor.dirty
         attempted, begun = window.editor.attempted, window.feature(ExerciseFeature).beginning
         briefed = exercise is not None and begun.is_briefed(exercise)
-        signed_in = ACCESS.student, ACCESS.instructor
+        signed_in = ACCESS.signed_in
         page, debrief = window.pages.currentWidget(), window.feature(DebriefFeature)
         if not all(one.may_go() for one in window.features if not isinstance(one, PlanFeature)):
             return
@@ -120,7 +120,7 @@ class Rebuilding(QObject):
 
         def end() -> None:
             _destroy(window)
-            if any(signed_in):  # whoever sits here has not gone
+            if any(signed_in[:2]):  # whoever sits here has not gone
                 ACCESS.sign_in(*signed_in)
                 new.feature(PeopleFeature).look()
             if of_people:

@@ -1,7 +1,8 @@
 """Who sits at the window: the switch at its top right, and what follows from it.
 
 Where no password is set the switch is free and remembered. Where one is, nobody signed in is a
-student, and the other roles ask for the password. It is refused while an attempt runs.
+student, and the other roles ask for the password, a technician's also whom the hospital signed in
+as an instructor. It is refused while an attempt runs.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ class RoleSwitch(QObject):
         self._settings: QSettings = shell.settings
         self._wanted = role_named(self._settings.value(_ROLE), first_role())
         self._asked: Role | None = None
-        self._was_in = ACCESS.instructor
+        self._was_open = _most_open()
         self.button = QToolButton(bar)
         self.button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
@@ -98,7 +99,7 @@ class RoleSwitch(QObject):
             )
             return
         self._asked = role
-        if role in STAFF and ACCESS.guarded and not ACCESS.instructor:
+        if role in STAFF and ACCESS.guarded and not ACCESS.opens(role):
             self._sign_in()
             return
         self._keep(role)
@@ -110,10 +111,11 @@ class RoleSwitch(QObject):
 
     def follow(self) -> None:
         """Take the role that fits who is signed in; an attempt that runs keeps its own."""
-        came, self._was_in = ACCESS.instructor and not self._was_in, ACCESS.instructor
-        if came:
+        before, self._was_open = self._was_open, _most_open()
+        if self._was_open > before:
             asked = self._asked if self._asked in STAFF else None
-            self._keep(asked or (self._wanted if self._wanted in STAFF else Role.INSTRUCTOR))
+            wanted = asked or (self._wanted if self._wanted in STAFF else Role.INSTRUCTOR)
+            self._keep(wanted if ACCESS.opens(wanted) else Role.INSTRUCTOR)
         role = self._now()
         if role is not self.role and not self._controller.is_running:
             self._apply(role)
@@ -132,7 +134,10 @@ class RoleSwitch(QObject):
 
     def _now(self) -> Role:
         closed = ACCESS.guarded and not ACCESS.instructor
-        return Role.STUDENT if ACCESS.student is not None or closed else self._wanted
+        if ACCESS.student is not None or closed:
+            return Role.STUDENT
+        beyond = ACCESS.instructor and not ACCESS.opens(self._wanted)
+        return Role.INSTRUCTOR if beyond else self._wanted
 
     def _apply(self, role: Role) -> None:
         self._close_dialogs()
@@ -159,3 +164,8 @@ class RoleSwitch(QObject):
                 tr("Who sits here: it decides what the window has ({key})", key=keys_text(ROLE_KEY))
             )
         )
+
+
+def _most_open() -> int:
+    """Return the rank of the highest role that who is signed in opens; 0 for who opens none."""
+    return max((role.rank for role in STAFF if ACCESS.opens(role)), default=0)
