@@ -1,6 +1,6 @@
 """The trainer as a program: real loop, real links, real cameras' way in, and a scripted hand.
 
-`python -m tests.twin.station FOLDER BOARD NODES SCENE IGTL ROSBRIDGE SEED`. What happens it tells as
+`python -m tests.twin.station FOLDER BOARD NODES SCENE IGTL ROSBRIDGE STUDENT SEED`. What happens it tells as
 lines of JSON, each with its monotonic time; it obeys lines: `quiet T` (when did the torques become
 zero after T), `done` (what was asked for at the board is done), `quit`.
 """
@@ -14,6 +14,7 @@ import sys
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -24,6 +25,7 @@ import numpy as np
 from app.compose import cameras as composed_cameras
 from app.compose.exercise_ct import read_ct
 from app.compose.needle import needle_scene
+from app.compose.robot import Robot
 from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.compose.watchers import open_watchers
 from app.core import state_vector as sv
@@ -68,7 +70,10 @@ def tell(kind: str, **facts: object) -> None:
 class Station:
     """One start of the program."""
 
-    def __init__(self, folder: Path, board: str, nodes: Path, scene: Path, seed: int) -> None:
+    def __init__(
+        self, folder: Path, board: str, nodes: Path, scene: Path, student: str, seed: int
+    ) -> None:
+        self._student = student
         self._folder, self._board, self._rng = folder, board, random.Random(seed)
         self._exercise = layered("first-insertion")
         self._profile = device_of(self._exercise)
@@ -270,7 +275,7 @@ class Station:
         lean = [f"{self._rng.uniform(-TURN, TURN):.2f}" for _ in range(2)]
         self.ask(f"turn {lean[0]} {lean[1]}")
         try:
-            number = trainer.begin("student")
+            number = trainer.begin(self._student)
             with suppress(IllegalTransitionError):
                 trainer.confirm_outside()
             trainer.assistance(1.0)
@@ -297,12 +302,18 @@ class Station:
         trainer.hand(float(axis[0]), float(axis[1]), self._depth)
 
 
-def main(folder: str, board: str, nodes: str, scene: str, igtl: str, ros: str, seed: str) -> None:
+def as_if_real(own: Callable[[Robot], dict[str, str]]) -> Callable[[Robot], dict[str, str]]:
+    """No university is told what an emulated robot did: here the board stands for a real one."""
+    return lambda robot: own(robot) | {"kind": "real"}
+
+
+def main(folder, board, nodes, scene, igtl, ros, student, seed) -> None:
+    Robot.metadata = as_if_real(Robot.metadata)
     # The pictures' way in: a driver's capture, here that of the streams.
     composed_cameras.make_camera = partial(make_camera, opener=StreamCapture)
     watchers = open_watchers({"igtl": igtl, "rosbridge": ros})
     tell("links", lines=[str(line) for one in watchers for line in one.lines()])
-    station = Station(Path(folder), board, Path(nodes), Path(scene), int(seed))
+    station = Station(Path(folder), board, Path(nodes), Path(scene), student, int(seed))
     with suppress(SystemExit):
         station.run(watchers)
     tell("closed")

@@ -22,15 +22,17 @@ class TrainerPart(ProcessPart):
         nodes: folder of the cameras' nodes.
         scene: file of what stands before them.
         ports: of OpenIGTLink and rosbridge.
+        student: key of the person who practises.
         seed: of the hand.
     """
 
     def __init__(
-        self, folder: Path, robot: Robot, nodes: Path, scene: Path, ports: tuple[int, int], seed: int
+        self, folder: Path, robot: Robot, nodes: Path, scene: Path, ports: tuple[int, int],
+        student: str, seed: int,
     ) -> None:
         super().__init__("trainer", folder / "trainer.log")
         self.folder, self._robot = folder, robot
-        self._words = (folder, robot.path, nodes, scene, *ports, seed)
+        self._words = (folder, robot.path, nodes, scene, *ports, student, seed)
         self.said: list[dict] = []
         self._changed = threading.Condition()
         self._reader: threading.Thread | None = None
