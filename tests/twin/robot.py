@@ -13,6 +13,10 @@ sys.path.append(str(ROOT / "tests" / "firmware"))
 from firmware_rig import built
 
 
+HAND, STIFF, ASIDE = "hold 0.3", 3.0, 2.0
+"""A hand that gives way slowly [N m s/rad]; how it pulls [N m/rad], and how far aside [deg]."""
+
+
 class Robot(ProcessPart):
     """A board of the laboratory's pantograph; each start is another power-up at the stops."""
 
@@ -50,6 +54,15 @@ class Robot(ProcessPart):
     def torques(self) -> list[float]:
         """Return the currents of its motors [A]."""
         return [float(word) for word in self.order("torques").split()]
+
+    def pull(self) -> None:
+        """Have the hand lean the needle off its path and keep it there, so that it is pushed back."""
+        for order in (f"turn {ASIDE} {-ASIDE}", f"{HAND} {STIFF}"):
+            self.order(order)
+
+    def give_way(self) -> None:
+        """Have the hand only slow the needle down again."""
+        self.order(HAND)
 
     def silent_after(self, moment: float, patience: float = 2.0) -> float:
         """Return how long after a moment [s] its motors gave something last."""

@@ -45,12 +45,13 @@ from app.tracking.cameras.settings import parse_cameras
 from app.tracking.optics.rig import load_rig
 from tests.layered import layered
 from tests.twin.camera import SceneFile, StreamCapture
+from tests.twin.robot import HAND
 
 OUT, SPEED, HELD, ALIGNED, PERIOD = -0.015, 0.010, 1.2, 0.03, 0.02
 """Depth outside [m], speed of the hand [m/s], time at the target [s], angle [rad], look [s]."""
 
-HAND, TURN = "hold 0.3", 3.0
-"""A hand that gives way slowly, and how far it leans the needle before an attempt [deg]."""
+TURN = 3.0
+"""How far the hand leans the needle before an attempt [deg]."""
 
 QUIET = 1.0
 """A message that was gone for so long [s] is told again."""

@@ -22,6 +22,9 @@ UNSEEN_S = 0.2 + 1.0
 LATE_S = 0.030
 """How late this computer may look or be woken [s]: what is measured includes it."""
 
+PUSHED_S = 0.2
+"""So long the hand has leaned the needle aside before a fault [s]."""
+
 BACK_S = 60.0
 
 
@@ -30,6 +33,7 @@ class Trial:
     """What was seen of one fault.
 
     Attributes:
+        moment: when it was done [s].
         zero_s: until there was no torque [s]; None where it has to go on.
         said: the words in which it was told.
         back_s: from the moment that the part was there again until it worked [s].
@@ -37,6 +41,7 @@ class Trial:
         broken: rules that were not kept.
     """
 
+    moment: float = 0.0
     zero_s: float | None = None
     said: str = ""
     back_s: float | None = None
@@ -60,11 +65,17 @@ class Trial:
         if seconds > limit + LATE_S:
             self.broken.append(f"{where} had torque for {1e3 * seconds:.0f} ms, {1e3 * limit:.0f} allowed")
 
+    def pushed(self, size: float, unit: str) -> None:
+        """Take how hard the motors pushed before; without any the trial would show nothing."""
+        self.notes.append(f"{size:.2f} {unit} before")
+        if not size > 0.0:
+            self.broken.append("nothing pushed before it")
+
     def hear(self, words: list[str], wanted: str) -> None:
         """Look for what has to be said."""
         for one in words:
             if re.search(wanted, one):
-                self.said = one if len(one) <= 160 else one[:157] + "…"
+                self.said = one if len(one) <= 200 else one[:197] + "…"
                 return
         self.broken.append(f"nobody said {wanted!r}")
 
@@ -74,15 +85,16 @@ def run_trial(lab: Laboratory, name: str, fault: str) -> Trial:
     trial = Trial()
     try:
         TRIALS[name](lab, name, fault, trial)
+        trial.said = trial.said.replace(str(lab.folder), "…")
     except (Broken, OSError) as error:
         trial.broken.append(str(error))
     return trial
 
 
-def _begin(lab: Laboratory, name: str, fault: str) -> tuple[float, Callable[[], None]]:
+def _begin(lab: Laboratory, name: str, fault: str, trial: Trial) -> tuple[float, Callable[[], None]]:
     """Do the fault; return when, and what makes it good again."""
     part = lab.parts[name]
-    moment = time.monotonic()
+    moment = trial.moment = time.monotonic()
     if fault == "killed":
         part.kill()
         return moment, part.start
@@ -105,19 +117,23 @@ def _robot(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
         _frozen(lab, trial)
         lab.inserting()
     with lab.trainer.board:
+        lab.robot.pull()
+        time.sleep(PUSHED_S)
         if fault == "restarted":  # its power goes, and comes again at once
-            moment, good = time.monotonic(), lambda: None
+            moment = trial.moment = time.monotonic()
+            good = bool
             lab.robot.order("reset")
         else:
-            moment, good = _begin(lab, name, fault)
+            moment, good = _begin(lab, name, fault, trial)
     time.sleep(1.0)
     last, before = lab.trainer.quiet(moment)
     trial.zero(last, LOOP_S, "the loop")
-    trial.notes.append(f"{before:.2f} N·m before")
+    trial.pushed(before, "N·m")
     at = time.monotonic()
     with lab.trainer.board:
         good()
         if fault == "hung":
+            lab.robot.give_way()
             trial.zero(lab.robot.silent_after(time.monotonic(), 0.5), BOARD_S, "the board")
     found = lab.trainer.find(
         lambda one: one["kind"] == "event" and one["words"].startswith("connected to"),
@@ -132,6 +148,8 @@ def _robot(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
 def _frozen(lab: Laboratory, trial: Trial) -> None:
     """Let the board's main program hang, while its timer goes on."""
     with lab.trainer.board:
+        lab.robot.pull()
+        time.sleep(PUSHED_S)
         moment = time.monotonic()
         lab.robot.order("freeze 1")
         silent = lab.robot.silent_after(moment)
@@ -139,20 +157,24 @@ def _frozen(lab: Laboratory, trial: Trial) -> None:
         trial.notes.append(f"its motors, with its program hanging: {1e3 * silent:.0f} ms")
         time.sleep(0.7)
         lab.robot.order("freeze 0")
+        lab.robot.give_way()
     lab.trainer.await_kind("began", moment, BACK_S)
 
 
 def _trainer(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     lab.inserting()
     with lab.trainer.board:
+        lab.robot.pull()
+        time.sleep(PUSHED_S)
         pushed = max(map(abs, lab.robot.torques()))
         if fault == "restarted":
-            moment, good = _begin(lab, name, fault)
+            moment, good = _begin(lab, name, fault, trial)
             trial.zero(lab.robot.silent_after(time.monotonic()), BOARD_S, "the board")
         else:
-            moment, good = _begin(lab, name, fault)
+            moment, good = _begin(lab, name, fault, trial)
             trial.zero(lab.robot.silent_after(moment), BOARD_S, "the board")
-    trial.notes.append(f"{pushed:.2f} A before")
+        lab.robot.give_way()
+    trial.pushed(pushed, "A")
     time.sleep(2.0 if fault == "hung" else 0.5)
     at = time.monotonic()
     good()
@@ -180,12 +202,17 @@ def _heard(lab: Laboratory, since: float, wanted: str) -> list[str]:
 
 def _camera(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     lab.inserting()
-    moment, good = _begin(lab, name, fault)
+    with lab.trainer.board:
+        lab.robot.pull()
+    time.sleep(PUSHED_S)
+    moment, good = _begin(lab, name, fault, trial)
     time.sleep(2.5)
     if name == "cameras":
         last, before = lab.trainer.quiet(moment)
         trial.zero(last, UNSEEN_S, "the loop")
-        trial.notes.append(f"{before:.2f} N·m before")
+        trial.pushed(before, "N·m")
+    with lab.trainer.board:
+        lab.robot.give_way()
     at = time.monotonic()
     good()
     seen = lab.trainer.find(
@@ -217,7 +244,7 @@ def _undisturbed(lab: Laboratory, since: float, trial: Trial) -> None:
 def _listener(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     lab.inserting()
     part = lab.listeners[name]
-    moment, good = _begin(lab, name, fault)
+    moment, good = _begin(lab, name, fault, trial)
     time.sleep(3.0)
     at = time.monotonic()
     good()
@@ -232,7 +259,7 @@ def _listener(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     else:
         trial.broken.append("no pose came again")
     if fault != "hung":
-        trial.hear(lab.words_after(moment), r"is gone|is dropped")
+        trial.hear(lab.words_after(moment), r"[\d.:]+ is (gone|dropped)")
     _undisturbed(lab, moment, trial)
 
 
@@ -255,7 +282,7 @@ def _receiver(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
         lab.university.kill()
         good = lab.university.start
     else:
-        moment, good = _begin(lab, name, fault)
+        moment, good = _begin(lab, name, fault, trial)
     failed = lab.courier.find(name, False, moment, BACK_S)
     if failed is None:
         failed = next((one for one in reversed(lab.courier.sendings)
