@@ -109,6 +109,15 @@ class ProcessPart:
         self._process = None
 
 
+def ahead(*how: str) -> list[str]:
+    """Return what begins a command that is served before others, where the system lets it.
+
+    The board is a computer of its own, and nothing else runs on the trainer's: here all share one.
+    """
+    allowed = subprocess.run([*how, "true"], capture_output=True, check=False).returncode == 0
+    return list(how) if allowed else []
+
+
 def module(name: str, *words: object) -> list[str]:
     """Return the command of a program of this package."""
     return [sys.executable, "-m", f"tests.twin.{name}", *map(str, words)]

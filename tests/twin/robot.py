@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-from tests.twin.part import ROOT, ProcessPart
+from tests.twin.part import ROOT, ProcessPart, ahead
 
 sys.path.append(str(ROOT / "tests" / "firmware"))
 from firmware_rig import built
@@ -26,7 +26,7 @@ class Robot(ProcessPart):
         self._program = built("host", "icube")
 
     def command(self) -> list[str]:
-        return [str(self._program), str(self.path)]
+        return [*ahead("chrt", "-r", "10"), str(self._program), str(self.path)]
 
     def start(self) -> None:
         self.path.unlink(missing_ok=True)  # of one that was killed

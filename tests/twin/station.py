@@ -172,13 +172,25 @@ class Station:
         finally:
             if self.rig is not None:
                 self.rig.close()
+                with suppress(AcusError):
+                    self._look_at(())  # what it says of an attempt that this ends
             for one in watchers:
                 one.close()
 
     def _listen(self) -> None:
         for line in sys.stdin:
-            self._lines.put(line.strip())
+            words = line.split()
+            if words[:1] == ["quiet"]:  # at once, also while a robot is being homed
+                self._tell_quiet(float(words[1]))
+            else:
+                self._lines.put(line.strip())
         self._lines.put("quit")
+
+    def _tell_quiet(self, after: float) -> None:
+        some = [(at - after, size) for at, size in list(self._torques)]
+        last = max((at for at, size in some if at > 0.0 and size > 0.0), default=0.0)
+        before = max((size for at, size in some if -0.1 < at <= 0.0), default=0.0)
+        tell("quiet", after=after, last=last, before=before)
 
     def _recover(self) -> None:
         """Close what an earlier start has left open, as the window does at its start."""
@@ -201,15 +213,8 @@ class Station:
 
     def _obey(self) -> None:
         with suppress(Empty):
-            words = self._lines.get_nowait().split()
-            if words == ["quit"]:
+            if self._lines.get_nowait() == "quit":
                 raise SystemExit
-            if words[:1] == ["quiet"]:
-                after = float(words[1])
-                some = [(at - after, size) for at, size in list(self._torques)]
-                last = max((at for at, size in some if at > 0.0 and size > 0.0), default=0.0)
-                before = max((size for at, size in some if -0.1 < at <= 0.0), default=0.0)
-                tell("quiet", after=after, last=last, before=before)
 
     def _look_at(self, watchers: tuple) -> None:
         """Tell what is new."""
@@ -250,7 +255,10 @@ class Station:
             with suppress(IllegalTransitionError):
                 trainer.confirm_outside()
             return
-        trainer.arm()
+        if snapshot.device is not None and snapshot.device.fault:
+            trainer.disarm()  # as the messages say: let go of the switch, then hold it again
+        else:
+            trainer.arm()
         aligned = snapshot.device is not None and snapshot.device.angle_error < ALIGNED
         if snapshot.state is not State.PAUSED:
             self._held += PERIOD if self._depth >= self._target else 0.0

@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from tests.twin.part import Broken, ProcessPart, module
+from tests.twin.part import Broken, ProcessPart, ahead, module
 from tests.twin.robot import Robot
 
 
@@ -39,7 +39,7 @@ class TrainerPart(ProcessPart):
         self.board = threading.Lock()  # one at a time speaks with the board
 
     def command(self) -> list[str]:
-        return module("station", *self._words)
+        return [*ahead("nice", "-n", "-5"), *module("station", *self._words)]
 
     def environment(self) -> dict[str, str]:
         return home(self.folder)
@@ -65,7 +65,7 @@ class TrainerPart(ProcessPart):
 
     def _gone(self) -> None:
         self._process.wait()
-        self._reader.join(10.0)
+        self._reader.join(10.0)  # its last words
         super()._gone()
 
     def _read(self, stdout) -> None:

@@ -16,8 +16,9 @@ LOOP_S = 0.100
 BOARD_S = 0.020
 """The board's own watchdog [s]."""
 
-UNSEEN_S = 0.2 + 1.0
-"""A depth is held so long without a picture, and then the attempt pauses after a second [s]."""
+UNSEEN_S = 0.2 + 1.0 + 0.033 + 0.020
+"""A depth is held so long without a picture, then the attempt pauses after a second [s]; a picture
+may be on its way, and the trainer looks every 20 ms."""
 
 LATE_S = 0.030
 """How late this computer may look or be woken [s]: what is measured includes it."""
