@@ -3,7 +3,7 @@
 The firmware's host port as the robot, two cameras as streams, the trainer, Slicer, the laboratory's
 GUI, an Orthanc and a record store, all as programs of their own; a scripted hand practises. Then
 each part is killed, hung and restarted. Exit code 0: every listener heard what the records hold,
-force ended in time, nothing was lost, it was said, and all was back by itself; 1: something was not.
+force ended in time, nothing was lost, it was said, and all was back by itself; 1: it was not so.
 """
 
 from __future__ import annotations

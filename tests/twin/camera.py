@@ -1,8 +1,8 @@
 """A camera as a program: draws what stands before it, and streams it as a UVC camera does.
 
-`python -m tests.twin.camera SIDE NODE SCENE`: listens at a socket in the place of the device's node,
-and hands out uncompressed pictures, each with the time of its capture by CLOCK_MONOTONIC, as V4L2
-stamps its buffers. The scene is eight numbers in a file that the station writes.
+`python -m tests.twin.camera SIDE NODE SCENE`: listens at a socket in the place of the device's
+node, and hands out uncompressed pictures, each with the time of its capture by CLOCK_MONOTONIC, as
+V4L2 stamps its buffers. The scene is eight numbers in a file that the station writes.
 """
 
 from __future__ import annotations

@@ -61,7 +61,7 @@ class Courier:
 
     def __post_init__(self) -> None:
         self._waiting: dict[str, list[str]] = {name: [] for name in self.to}
-        self._ended: list[str] = []
+        self.ended: list[str] = []
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
 
@@ -70,7 +70,7 @@ class Courier:
 
     def take(self, number: str) -> None:
         """Have an attempt told."""
-        self._ended.append(number)
+        self.ended.append(number)
         for waiting in self._waiting.values():
             waiting.append(number)
 
@@ -111,9 +111,7 @@ class Courier:
         for number in numbers:
             place = self.folder / "objects" / number
             if number not in self.objects:
-                done, said, facts = acus(
-                    self.folder, "session", "export", number, "--dicom", place
-                )
+                done, said, facts = acus(self.folder, "session", "export", number, "--dicom", place)
                 if not done:
                     now = time.monotonic()
                     self.sendings.append(Sending(now, now, "archive", False, said))

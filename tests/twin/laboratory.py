@@ -16,7 +16,7 @@ from app.tracking.optics.rig import load_rig
 from tests.twin.archive import Archive
 from tests.twin.camera import Camera, SceneFile
 from tests.twin.courier import Courier, acus
-from tests.twin.part import Broken, ProcessPart, module
+from tests.twin.part import BrokenRuleError, ProcessPart, module
 from tests.twin.robot import Robot
 from tests.twin.trainer_part import TrainerPart, home
 from tests.twin.university import University, free_port
@@ -165,12 +165,12 @@ class Laboratory:
                 "--title", one.title, "--own-host", "127.0.0.1", "--timeout-s", ARCHIVE_S,
             )  # fmt: skip
             if not done:
-                raise Broken(said)
+                raise BrokenRuleError(said)
         if self.university is not None:
             own = ("--home", "https://training.example", "--user", "acus")
             done, said, _ = acus(self.folder, "results", "lrs", self.university.url, *own)
             if not done:
-                raise Broken(said)
+                raise BrokenRuleError(said)
             (file,) = (self.folder / "data").rglob("lrs.json")
             file.write_text(json.dumps(json.loads(file.read_text()) | {"seconds": UNIVERSITY_S}))
 
@@ -189,7 +189,7 @@ class Laboratory:
         """Wait until the needle goes in, a while after that began, with a torque on.
 
         Raises:
-            Broken: if it does not.
+            BrokenRuleError: if it does not.
         """
         since, end = time.monotonic(), time.monotonic() + seconds
         while True:

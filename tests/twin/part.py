@@ -6,9 +6,7 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import suppress
 from pathlib import Path
 from typing import IO, Protocol
 
@@ -102,10 +100,8 @@ class ProcessPart:
     def _gone(self) -> None:
         self._process.wait()
         for pipe in (self._process.stdin, self._process.stdout, self._err):
-            try:
+            with suppress(BrokenPipeError):
                 pipe.close()
-            except BrokenPipeError:
-                pass
         self._process = None
 
 
@@ -123,25 +119,5 @@ def module(name: str, *words: object) -> list[str]:
     return [sys.executable, "-m", f"tests.twin.{name}", *map(str, words)]
 
 
-def wait_for(what: Callable[[], object], seconds: float, name: str) -> object:
-    """Return what `what()` returns once it is true."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if came := what():
-            return came
-        time.sleep(0.01)
-    raise Broken(f"{name} has not come within {seconds:g} s")
-
-
-class Broken(Exception):
+class BrokenRuleError(Exception):
     """A rule of the laboratory is broken; the text says which."""
-
-
-@contextmanager
-def all_ended(parts: list[Part]) -> Iterator[None]:
-    """End all parts at the end, the last first, whatever happens."""
-    try:
-        yield
-    finally:
-        for one in reversed(parts):
-            one.stop()

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from tests.twin.part import ROOT, ProcessPart, ahead
@@ -12,9 +16,16 @@ from tests.twin.part import ROOT, ProcessPart, ahead
 sys.path.append(str(ROOT / "tests" / "firmware"))
 from firmware_rig import built
 
-
 HAND, STIFF, ASIDE = "hold 0.3", 3.0, 2.0
 """A hand that gives way slowly [N m s/rad]; how it pulls [N m/rad], and how far aside [deg]."""
+
+
+@dataclass
+class Watch:
+    """What the motors gave: when there was something last [s], and the most [A]."""
+
+    last: float = 0.0
+    most: float = 0.0
 
 
 class Robot(ProcessPart):
@@ -23,7 +34,7 @@ class Robot(ProcessPart):
     def __init__(self, folder: Path) -> None:
         super().__init__("robot", folder / "robot.log")
         self.path = folder / "board"
-        self._program = built("host", "icube")
+        self._program, self._line = built("host", "icube"), threading.Lock()
 
     def command(self) -> list[str]:
         return [*ahead("chrt", "-r", "10"), str(self._program), str(self.path)]
@@ -46,8 +57,9 @@ class Robot(ProcessPart):
 
     def order(self, text: str) -> str:
         """Give an order; return what it says before its `ok`."""
-        self.say(text)
-        answer = self.hear()
+        with self._line:
+            self.say(text)
+            answer = self.hear()
         assert answer.endswith("ok"), f"the board said {answer!r} to {text!r}"
         return answer.removesuffix("ok").strip()
 
@@ -56,22 +68,35 @@ class Robot(ProcessPart):
         return [float(word) for word in self.order("torques").split()]
 
     def pull(self) -> None:
-        """Have the hand lean the needle off its path and keep it there, so that it is pushed back."""
+        """Have the hand lean the needle off its path and keep it there: the motors push back."""
         for order in (f"turn {ASIDE} {-ASIDE}", f"{HAND} {STIFF}"):
             self.order(order)
+
+    def freeze(self) -> None:
+        """Let its main program hang; its timer goes on."""
+        self.order("freeze 1")
 
     def give_way(self) -> None:
         """Have the hand only slow the needle down again."""
         self.order(HAND)
 
-    def silent_after(self, moment: float, patience: float = 2.0) -> float:
-        """Return how long after a moment [s] its motors gave something last."""
-        last = moment
-        while time.monotonic() < moment + patience:
-            asked = time.monotonic()
-            if any(self.torques()):
-                last = time.monotonic()
-            elif asked - last > 0.1:
-                break
-            time.sleep(0.0005)
-        return last - moment
+    @contextmanager
+    def watched(self, after: float = 0.3) -> Iterator[Watch]:
+        """Look at its motors twice a millisecond meanwhile, and for a while [s] after it."""
+        watch, over = Watch(), threading.Event()
+
+        def look() -> None:
+            while not over.is_set():
+                size = max(map(abs, self.torques()))
+                watch.most, now = max(watch.most, size), time.monotonic()
+                watch.last = now if size > 0.0 else watch.last
+                time.sleep(0.0005)
+
+        thread = threading.Thread(target=look)
+        thread.start()
+        try:
+            yield watch
+            time.sleep(after)
+        finally:
+            over.set()
+            thread.join()

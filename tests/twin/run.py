@@ -5,12 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from app.session.interrupted import is_cut_off
 from tests.twin.agreement import Agreement, Track, heard, of_gui, of_slicer, track_of
 from tests.twin.laboratory import Laboratory
-from tests.twin.part import Broken
+from tests.twin.part import BrokenRuleError
 from tests.twin.trials import Trial, run_trial
 
 LOST_S = 1.0
@@ -78,7 +77,7 @@ class Twin:
         now = time.monotonic()
         try:
             lab.trainer.await_kind("ended", now, 90.0)
-        except Broken as error:
+        except BrokenRuleError as error:
             self.outcome.broken.append(str(error))
         time.sleep(0.5)
         lab.trainer.stop()
@@ -125,7 +124,7 @@ class Twin:
             track = next((t for t in tracks if t.id == one["id"]), None)
             earlier = [o["t"] for o in said if o["t"] < one["t"] and o["kind"] != "recovered"]
             trial = self.outcome.trials.get("trainer", {}).get("killed")
-            killed = getattr(trial, "moment", None)
+            killed = None if trial is None else trial.moment
             if track is None or killed is None or not earlier:
                 continue
             lost = killed + lab.wall - track.whole[1]
@@ -143,13 +142,11 @@ class Twin:
             if len(held) != len(set(held)) or set(held) != wanted:
                 out.broken.append(f"the archive holds {len(held)} objects, not {len(wanted)}")
         if lab.university is not None:
-            counts, told = lab.university.held(), lab.courier._ended
-            out.agrees["university"] = f"{len(counts)} statements of {len(told)} attempts, each once"
+            counts, told = lab.university.held(), lab.courier.ended
+            out.agrees["university"] = (
+                f"{len(counts)} statements of {len(told)} attempts, each once"
+            )
             if max(counts.values(), default=1) > 1:
                 out.broken.append("the university holds a statement twice")
             if len(counts) != len(told):
                 out.broken.append(f"{len(counts)} statements of {len(told)} attempts arrived")
-        if lab.robot is not None:
-            out.agrees["robot"] = "–"
-
-

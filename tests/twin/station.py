@@ -1,8 +1,8 @@
 """The trainer as a program: real loop, real links, real cameras' way in, and a scripted hand.
 
-`python -m tests.twin.station FOLDER BOARD NODES SCENE IGTL ROSBRIDGE STUDENT SEED`. What happens it tells as
-lines of JSON, each with its monotonic time; it obeys lines: `quiet T` (when did the torques become
-zero after T), `done` (what was asked for at the board is done), `quit`.
+`python -m tests.twin.station FOLDER BOARD NODES SCENE IGTL ROSBRIDGE STUDENT SEED`. What happens it
+tells as lines of JSON, each with its monotonic time; it obeys lines: `quiet T` (when did the
+torques become zero after T), `done` (what was asked for at the board is done), `quit`.
 """
 
 from __future__ import annotations
@@ -235,7 +235,9 @@ class Station:
         if snapshot.state.value != self._state:
             self._state = snapshot.state.value
             tell("state", state=self._state)
-        lines = [line for one in watchers for server in one.servers for line in server.journal.lines]
+        lines = [
+            line for one in watchers for server in one.servers for line in server.journal.lines
+        ]
         for line in lines[self._journal :] if len(lines) >= self._journal else lines:
             tell("words", about="link", words=line)
         self._journal = len(lines)

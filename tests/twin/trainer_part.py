@@ -7,9 +7,10 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
-from tests.twin.part import Broken, ProcessPart, ahead, module
+from tests.twin.part import BrokenRuleError, ProcessPart, ahead, module
 from tests.twin.robot import Robot
 
 
@@ -27,8 +28,14 @@ class TrainerPart(ProcessPart):
     """
 
     def __init__(
-        self, folder: Path, robot: Robot, nodes: Path, scene: Path, ports: tuple[int, int],
-        student: str, seed: int,
+        self,
+        folder: Path,
+        robot: Robot,
+        nodes: Path,
+        scene: Path,
+        ports: tuple[int, int],
+        student: str,
+        seed: int,
     ) -> None:
         super().__init__("trainer", folder / "trainer.log")
         self.folder, self._robot = folder, robot
@@ -84,22 +91,17 @@ class TrainerPart(ProcessPart):
 
     def _do(self, order: str) -> None:
         """Do at the board what the program asks for, as a person would."""
-        try:
-            with self.board:
-                self._robot.order(order)
-        except (OSError, AttributeError, AssertionError):
-            pass  # there is no board now
-        try:
+        with suppress(OSError, AttributeError, AssertionError), self.board:  # or there is no board
+            self._robot.order(order)
+        with suppress(OSError, AttributeError):
             self.say("done")
-        except (OSError, AttributeError):
-            pass
 
     # --- what it has said -------------------------------------------------------------------------
     def find(self, wanted: Callable[[dict], bool], since: float, seconds: float, what: str) -> dict:
         """Return the first that it says after a moment which is wanted.
 
         Raises:
-            Broken: if it does not come.
+            BrokenRuleError: if it does not come.
         """
         end = time.monotonic() + seconds
 
@@ -110,7 +112,7 @@ class TrainerPart(ProcessPart):
             while (one := match()) is None:
                 left = end - time.monotonic()
                 if left <= 0.0:
-                    raise Broken(f"{what} has not come within {seconds:g} s")
+                    raise BrokenRuleError(f"{what} has not come within {seconds:g} s")
                 self._changed.wait(min(left, 1.0))
         return one
 
@@ -118,7 +120,7 @@ class TrainerPart(ProcessPart):
         return self.find(lambda one: one["kind"] == kind, since, seconds, f"the trainer's {kind!r}")
 
     def quiet(self, since: float) -> tuple[float, float]:
-        """Return how long after a moment the loop's torque was there last [s], and before it [N·m]."""
+        """Return how long after a moment the loop had torque [s], and how much before it [N·m]."""
         asked = time.monotonic()
         self.say(f"quiet {since!r}")
         one = self.await_kind("quiet", asked, 10.0)

@@ -1,4 +1,4 @@
-"""One fault of one part: done, borne, measured. What a rule asks for stands beside what was seen."""
+"""One fault of one part: done, borne, measured, and held against the rules."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from tests.twin.laboratory import Laboratory
-from tests.twin.part import Broken
+from tests.twin.part import BrokenRuleError
 
 LOOP_S = 0.100
 """From here on encoder values are too old for any force [s] (docs/architecture.md)."""
@@ -64,7 +64,9 @@ class Trial:
         """Take when the torque ended, and hold it against a limit."""
         self.zero_s = max(self.zero_s or 0.0, seconds)
         if seconds > limit + LATE_S:
-            self.broken.append(f"{where} had torque for {1e3 * seconds:.0f} ms, {1e3 * limit:.0f} allowed")
+            self.broken.append(
+                f"{where} had torque for {1e3 * seconds:.0f} ms, {1e3 * limit:.0f} allowed"
+            )
 
     def pushed(self, size: float, unit: str) -> None:
         """Take how hard the motors pushed before; without any the trial would show nothing."""
@@ -87,12 +89,14 @@ def run_trial(lab: Laboratory, name: str, fault: str) -> Trial:
     try:
         TRIALS[name](lab, name, fault, trial)
         trial.said = trial.said.replace(str(lab.folder), "…")
-    except (Broken, OSError) as error:
+    except (BrokenRuleError, OSError) as error:
         trial.broken.append(str(error))
     return trial
 
 
-def _begin(lab: Laboratory, name: str, fault: str, trial: Trial) -> tuple[float, Callable[[], None]]:
+def _begin(
+    lab: Laboratory, name: str, fault: str, trial: Trial
+) -> tuple[float, Callable[[], None]]:
     """Do the fault; return when, and what makes it good again."""
     part = lab.parts[name]
     moment = trial.moment = time.monotonic()
@@ -134,8 +138,11 @@ def _robot(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     with lab.trainer.board:
         good()
         if fault == "hung":
+            went = time.monotonic()
             lab.robot.give_way()
-            trial.zero(lab.robot.silent_after(time.monotonic(), 0.5), BOARD_S, "the board")
+            with lab.robot.watched() as watch:
+                pass
+            trial.zero(max(0.0, watch.last - went), BOARD_S, "the board that goes on")
     found = lab.trainer.find(
         lambda one: one["kind"] == "event" and one["words"].startswith("connected to"),
         moment, BACK_S, "the robot's link",
@@ -151,9 +158,11 @@ def _frozen(lab: Laboratory, trial: Trial) -> None:
     with lab.trainer.board:
         lab.robot.pull()
         time.sleep(PUSHED_S)
-        moment = time.monotonic()
-        lab.robot.order("freeze 1")
-        silent = lab.robot.silent_after(moment)
+        with lab.robot.watched() as watch:
+            time.sleep(0.05)
+            moment = time.monotonic()
+            lab.robot.freeze()
+        silent = max(0.0, watch.last - moment)
         trial.zero(silent, BOARD_S, "the board whose program hangs")
         trial.notes.append(f"its motors, with its program hanging: {1e3 * silent:.0f} ms")
         time.sleep(0.7)
@@ -167,15 +176,14 @@ def _trainer(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     with lab.trainer.board:
         lab.robot.pull()
         time.sleep(PUSHED_S)
-        pushed = max(map(abs, lab.robot.torques()))
-        if fault == "restarted":
+        with lab.robot.watched() as watch:
+            time.sleep(0.05)
             moment, good = _begin(lab, name, fault, trial)
-            trial.zero(lab.robot.silent_after(time.monotonic()), BOARD_S, "the board")
-        else:
-            moment, good = _begin(lab, name, fault, trial)
-            trial.zero(lab.robot.silent_after(moment), BOARD_S, "the board")
+            ended = time.monotonic()
+        since = ended if fault == "restarted" else moment
+        trial.zero(max(0.0, watch.last - since), BOARD_S, "the board")
         lab.robot.give_way()
-    trial.pushed(pushed, "A")
+    trial.pushed(watch.most, "A")
     time.sleep(2.0 if fault == "hung" else 0.5)
     at = time.monotonic()
     good()
@@ -195,7 +203,7 @@ def _trainer(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
 
 def _heard(lab: Laboratory, since: float, wanted: str) -> list[str]:
     lab.trainer.find(
-        lambda one: one["kind"] in ("words", "event") and re.search(wanted, one["words"]) is not None,
+        lambda one: one["kind"] in ("words", "event") and bool(re.search(wanted, one["words"])),
         since, 20.0, f"a word like {wanted!r}",
     )  # fmt: skip
     return [one for one in lab.words_after(since) if re.search(wanted, one)]
@@ -267,7 +275,9 @@ def _listener(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
 def _stamp(line: dict) -> float:
     if "stamp" in line:
         return line["stamp"]
-    header = line["message"].get("header") or line["message"].get("transforms", [{}])[0].get("header")
+    header = line["message"].get("header") or line["message"].get("transforms", [{}])[0].get(
+        "header"
+    )
     return header["stamp"]["sec"] + 1e-9 * header["stamp"]["nanosec"] if header else 0.0
 
 
@@ -286,8 +296,8 @@ def _receiver(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
         moment, good = _begin(lab, name, fault, trial)
     failed = lab.courier.find(name, False, moment, BACK_S)
     if failed is None:
-        failed = next((one for one in reversed(lab.courier.sendings)
-                       if one.to == name and not one.done and one.ended > moment), None)  # fmt: skip
+        some = [one for one in lab.courier.sendings if one.to == name and one.ended > moment]
+        failed = next((one for one in some if not one.done), None)
     if failed is None:
         trial.broken.append("no sending failed while it was away")
     else:

@@ -16,7 +16,7 @@ from collections import Counter
 from contextlib import suppress
 from pathlib import Path
 
-from tests.twin.part import ROOT, ProcessPart, module, wait_for
+from tests.twin.part import ROOT, ProcessPart, module
 
 sys.path.append(str(ROOT / "tests" / "exchange"))
 from lrs_server import ScriptedLrs
@@ -68,7 +68,11 @@ class StoreOnDisk(ScriptedLrs):
     def __init__(self, port: int, file: Path) -> None:
         super().__init__()
         self._listening.close()
-        self._listening, self.port, self._file = socket.create_server(("127.0.0.1", port)), port, file
+        self._listening, self.port, self._file = (
+            socket.create_server(("127.0.0.1", port)),
+            port,
+            file,
+        )
         if file.exists():
             some = [json.loads(line) for line in file.read_text().splitlines()]
             self.held = {one["id"]: one for one in some}
