@@ -18,7 +18,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from tests.twin.part import ProcessPart, module
+from tests.twin.part import ProcessPart, ahead, module
 
 RATE_HZ, SEED, NOISE_GREY, TILES = 30.0, 7, 3.0, 8
 _HEAD = struct.Struct("<IIdI")  # width, height, time [s], bytes
@@ -57,7 +57,7 @@ class Camera(ProcessPart):
         self.side, self.node, self._scene = side, nodes / side, scene
 
     def command(self) -> list[str]:
-        return module("camera", self.side, self.node, self._scene)
+        return ahead("nice", "-n", "-10") + module("camera", self.side, self.node, self._scene)
 
     def start(self) -> None:
         super().start()

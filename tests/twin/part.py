@@ -108,7 +108,8 @@ class ProcessPart:
 def ahead(*how: str) -> list[str]:
     """Return what begins a command that is served before others, where the system lets it.
 
-    The board is a computer of its own, and nothing else runs on the trainer's: here all share one.
+    Board and cameras are machines of their own, and nothing else runs on the trainer's: here all
+    share one.
     """
     allowed = subprocess.run([*how, "true"], capture_output=True, check=False).returncode == 0
     return list(how) if allowed else []

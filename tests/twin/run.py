@@ -41,6 +41,7 @@ class Twin:
 
     Args:
         parts: which have faults; listeners and receivers that are not named are not there.
+        besides: which are there without faults.
         faults: of `part.FAULTS`, in their order.
         seed: of the hand.
         calm: time before the first fault [s].
@@ -49,16 +50,17 @@ class Twin:
 
     def __init__(
         self, parts: Sequence[str], faults: Sequence[str], seed: int, calm: float,
-        tell: Callable[[str], None] = lambda _: None,
+        tell: Callable[[str], None] = lambda _: None, besides: Sequence[str] = (),
     ) -> None:  # fmt: skip
         self._parts, self._faults, self._seed, self._calm = parts, faults, seed, calm
+        self._there = frozenset({*parts, *besides})
         self._tell = tell
         self.outcome = Outcome(faults)
 
     def run(self, seconds: float) -> Outcome:
         """Practise for so long at least, do every fault, and compare."""
         out, began = self.outcome, time.monotonic()
-        with Laboratory(frozenset(self._parts), self._seed) as lab:
+        with Laboratory(self._there, self._seed) as lab:
             self._tell(f"all parts work after {time.monotonic() - began:.0f} s: {lab.folder}")
             time.sleep(self._calm)
             for part in self._parts:

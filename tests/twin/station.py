@@ -53,6 +53,9 @@ OUT, SPEED, HELD, ALIGNED, PERIOD = -0.015, 0.010, 1.2, 0.03, 0.02
 TURN = 3.0
 """How far the hand leans the needle before an attempt [deg]."""
 
+WAITS = 1.0
+"""A hand stays outside for so long at first [s]: who is inside too soon had not been out."""
+
 QUIET = 1.0
 """A message that was gone for so long [s] is told again."""
 
@@ -84,7 +87,8 @@ class Station:
         self._torques: deque[tuple[float, float]] = deque(maxlen=40_000)
         self._tick, self._state = 0, ""
         self._said: dict[str, float] = {}
-        self._depth, self._held, self._begun, self._journal = OUT, 0.0, 0.0, 0
+        self._depth, self._held, self._begun = OUT, 0.0, 0.0
+        self._told_lines: dict[object, tuple[str, ...]] = {}
         self.rig = None
 
     # --- the robot --------------------------------------------------------------------------------
@@ -235,12 +239,15 @@ class Station:
         if snapshot.state.value != self._state:
             self._state = snapshot.state.value
             tell("state", state=self._state)
-        lines = [
-            line for one in watchers for server in one.servers for line in server.journal.lines
-        ]
-        for line in lines[self._journal :] if len(lines) >= self._journal else lines:
-            tell("words", about="link", words=line)
-        self._journal = len(lines)
+        for server in (server for one in watchers for server in one.servers):
+            before, lines = self._told_lines.get(server, ()), server.journal.lines
+            if lines != before:  # the oldest go as new ones come
+                gone = next(
+                    k for k in range(len(before) + 1) if lines[: len(before) - k] == before[k:]
+                )
+                for line in lines[len(before) - gone :]:
+                    tell("words", about="link", words=line)
+            self._told_lines[server] = lines
 
     # --- the student ------------------------------------------------------------------------------
     def _running(self) -> bool:
@@ -254,8 +261,9 @@ class Station:
             self._begin(trainer, snapshot, now)
             return
         if snapshot.state is State.WITHDRAWING:
-            with suppress(IllegalTransitionError):
-                trainer.confirm_outside()
+            if now - self._begun > WAITS:
+                with suppress(IllegalTransitionError):
+                    trainer.confirm_outside()
             return
         if snapshot.device is not None and snapshot.device.fault:
             trainer.disarm()  # as the messages say: let go of the switch, then hold it again
@@ -264,7 +272,7 @@ class Station:
         aligned = snapshot.device is not None and snapshot.device.angle_error < ALIGNED
         if snapshot.state is not State.PAUSED:
             self._held += PERIOD if self._depth >= self._target else 0.0
-            if aligned or snapshot.state in IN_BODY:
+            if (aligned and now - self._begun > WAITS) or snapshot.state in IN_BODY:
                 self._depth = min(self._depth + SPEED * PERIOD, self._target)
         self._move(trainer)
         if self._held > HELD or now - self._begun > LONGEST:
@@ -287,8 +295,6 @@ class Station:
         self.ask(f"turn {lean[0]} {lean[1]}")
         try:
             number = trainer.begin(self._student)
-            with suppress(IllegalTransitionError):
-                trainer.confirm_outside()
             trainer.assistance(1.0)
         except AcusError as error:
             tell("words", about="begin", words=str(error))

@@ -23,6 +23,9 @@ may be on its way, and the trainer looks every 20 ms."""
 LATE_S = 0.030
 """How late this computer may look or be woken [s]: what is measured includes it."""
 
+BUSY = "the encoders have not been read for 100 ms"
+"""What ends an attempt where the loop itself is not served: no part's fault but the computer's."""
+
 PUSHED_S = 0.2
 """So long the hand has leaned the needle aside before a fault [s]."""
 
@@ -241,11 +244,14 @@ def _camera(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
 
 
 def _undisturbed(lab: Laboratory, since: float, trial: Trial) -> None:
-    """No attempt was aborted, and torque went on."""
-    aborted = [one for one in lab.trainer.said if one["t"] >= since and one["kind"] == "ended"
-               and one["state"] != "ended"]  # fmt: skip
-    if aborted:
-        trial.broken.append(f"{len(aborted)} attempts were aborted")
+    """No attempt was aborted for it."""
+    told = [one for one in lab.trainer.said if one["t"] >= since and one["kind"] == "event"]
+    aborted = [one["words"] for one in told if one["about"] == "abort"]
+    other = [one for one in aborted if BUSY not in one]
+    if other:
+        trial.broken.append(f"an attempt was aborted: {other[0]}")
+    elif aborted:
+        trial.notes.append(f"this computer was too busy for {len(aborted)} attempts")
     else:
         trial.notes.append("the attempt went on")
 
