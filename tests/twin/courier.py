@@ -23,7 +23,7 @@ PAUSE = 1.0
 
 def acus(folder: Path, *words: object) -> tuple[bool, str, dict]:
     """Run a command of the program; return whether it did it, what it said, its facts."""
-    command = ["nice", "-n", "10", sys.executable, "-m", "app", *map(str, words), "--json"]
+    command = [sys.executable, "-m", "app", *map(str, words), "--json"]
     done = subprocess.run(
         command, capture_output=True, text=True, cwd=ROOT, env=home(folder), check=False
     )
