@@ -26,6 +26,9 @@ LATE_S = 0.030
 BUSY = "the encoders have not been read for 100 ms"
 """What ends an attempt where the loop itself is not served: no part's fault but the computer's."""
 
+TRIES, PUSH_A = 4, 0.02
+"""So often it is tried to have the motors push, and from when on they do [A]."""
+
 PUSHED_S = 0.2
 """So long the hand has leaned the needle aside before a fault [s]."""
 
@@ -119,14 +122,32 @@ def _again(lab: Laboratory, since: float, trial: Trial) -> None:
     trial.notes.append(f"next attempt after {began['t'] - since:.1f} s")
 
 
+def _lean(lab: Laboratory) -> None:
+    """Have the needle leaned aside, so that the motors push.
+
+    Raises:
+        BrokenRuleError: if they do not, also not in later attempts.
+    """
+    for _ in range(TRIES):
+        with lab.trainer.board:
+            lab.robot.pull()
+            time.sleep(PUSHED_S)
+            if max(map(abs, lab.robot.torques())) > PUSH_A:
+                return
+            lab.robot.give_way()
+        lab.inserting()
+    raise BrokenRuleError(
+        f"in {TRIES} attempts the motors did not push a needle that was leaned aside"
+    )
+
+
 def _robot(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     lab.inserting()
     if fault == "hung":
         _frozen(lab, trial)
         lab.inserting()
+    _lean(lab)
     with lab.trainer.board:
-        lab.robot.pull()
-        time.sleep(PUSHED_S)
         if fault == "restarted":  # its power goes, and comes again at once
             moment = trial.moment = time.monotonic()
             good = bool
@@ -158,9 +179,8 @@ def _robot(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
 
 def _frozen(lab: Laboratory, trial: Trial) -> None:
     """Let the board's main program hang, while its timer goes on."""
+    _lean(lab)
     with lab.trainer.board:
-        lab.robot.pull()
-        time.sleep(PUSHED_S)
         with lab.robot.watched() as watch:
             time.sleep(0.05)
             moment = time.monotonic()
@@ -176,9 +196,8 @@ def _frozen(lab: Laboratory, trial: Trial) -> None:
 
 def _trainer(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     lab.inserting()
+    _lean(lab)
     with lab.trainer.board:
-        lab.robot.pull()
-        time.sleep(PUSHED_S)
         with lab.robot.watched() as watch:
             time.sleep(0.05)
             moment, good = _begin(lab, name, fault, trial)
@@ -214,9 +233,7 @@ def _heard(lab: Laboratory, since: float, wanted: str) -> list[str]:
 
 def _camera(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
     lab.inserting()
-    with lab.trainer.board:
-        lab.robot.pull()
-    time.sleep(PUSHED_S)
+    _lean(lab)
     moment, good = _begin(lab, name, fault, trial)
     time.sleep(2.5)
     if name == "cameras":
