@@ -57,7 +57,7 @@ class Camera(ProcessPart):
         self.side, self.node, self._scene = side, nodes / side, scene
 
     def command(self) -> list[str]:
-        return ahead("nice", "-n", "-10") + module("camera", self.side, self.node, self._scene)
+        return ahead("nice", "-n", "-5") + module("camera", self.side, self.node, self._scene)
 
     def start(self) -> None:
         super().start()

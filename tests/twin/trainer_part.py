@@ -46,7 +46,7 @@ class TrainerPart(ProcessPart):
         self.board = threading.Lock()  # one at a time speaks with the board
 
     def command(self) -> list[str]:
-        return [*ahead("nice", "-n", "-10"), *module("station", *self._words)]
+        return [*ahead("nice", "-n", "-5"), *module("station", *self._words)]
 
     def environment(self) -> dict[str, str]:
         return home(self.folder)
