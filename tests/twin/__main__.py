@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 import time
 from contextlib import suppress
@@ -17,7 +18,6 @@ from contextlib import suppress
 from tests.twin.laboratory import PARTS
 from tests.twin.part import FAULTS
 from tests.twin.run import Twin
-
 
 AHEAD = -10
 """Niceness of all parts, where the system lets it; trainer and cameras come before the others."""
@@ -36,6 +36,7 @@ def main() -> int:
     faults = [one.strip() for one in asked.faults.split(",") if one.strip()]
     if unknown := (set(parts) - set(PARTS)) | (set(faults) - set(FAULTS)):
         parser.error(f"{', '.join(sorted(unknown))}: there are {', '.join((*PARTS, *FAULTS))}")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # all parts are ended then too
     with suppress(OSError):  # a laboratory's computer does nothing else: not so where tests run
         os.setpriority(os.PRIO_PROCESS, 0, AHEAD)
     began = time.monotonic()

@@ -93,7 +93,7 @@ class Laboratory:
 
     def __init__(self, parts: frozenset[str], seed: int) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="acus-twin-"))
-        self._nodes = Path(tempfile.mkdtemp(prefix="acus-twin-", dir="/dev/shm"))
+        self.nodes = Path(tempfile.mkdtemp(prefix="acus-twin-", dir="/dev/shm"))
         (self.folder / "sessions").mkdir()
         scene, ports = self.folder / "scene", (free_port(), free_port())
         SceneFile(scene, new=True).write([0.0, 0.16056, 0.10], [0.0, 0.0, -1.0])
@@ -101,12 +101,10 @@ class Laboratory:
         os.environ |= {k: v for k, v in home(self.folder).items() if k.startswith("ACUS_")}
         _calibrate()
         self.robot = Robot(self.folder)
-        sides = [Camera(side, self.folder, self._nodes, scene) for side in ("left", "right")]
+        sides = [Camera(side, self.folder, self.nodes, scene) for side in ("left", "right")]
         self.parts = {"robot": self.robot, "left camera": sides[0], "cameras": Cameras(sides)}
         student = acus(self.folder, "people", "add", "Ada")[2]["key"]
-        self.trainer = TrainerPart(
-            self.folder, self.robot, self._nodes, scene, ports, student, seed
-        )
+        self.trainer = TrainerPart(self.folder, self.robot, self.nodes, scene, ports, student, seed)
         self.listeners = {
             name: Listener(name, self.folder, port)
             for name, port in zip(("slicer", "gui"), ports, strict=True)
@@ -141,7 +139,7 @@ class Laboratory:
                 os.environ.pop(name, None)
             else:
                 os.environ[name] = value
-        shutil.rmtree(self._nodes, ignore_errors=True)
+        shutil.rmtree(self.nodes, ignore_errors=True)
         if not os.environ.get("ACUS_TWIN_KEEP"):
             shutil.rmtree(self.folder, ignore_errors=True)
 
