@@ -47,7 +47,7 @@ class Sending:
 
 @dataclass
 class Courier:
-    """Sends in a thread of its own.
+    """Sends to each in a thread of its own.
 
     Args:
         folder: of the laboratory.
@@ -63,10 +63,13 @@ class Courier:
         self._waiting: dict[str, list[str]] = {name: [] for name in self.to}
         self.ended: list[str] = []
         self._over = threading.Event()
-        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._threads = [
+            threading.Thread(target=self._run, args=(name,), daemon=True) for name in self.to
+        ]
 
     def start(self) -> None:
-        self._thread.start()
+        for one in self._threads:
+            one.start()
 
     def take(self, number: str) -> None:
         """Have an attempt told."""
@@ -80,7 +83,8 @@ class Courier:
         while any(self._waiting.values()) and time.monotonic() < end:
             time.sleep(0.1)
         self._over.set()
-        self._thread.join(60.0)
+        for one in self._threads:
+            one.join(60.0)
         return not any(self._waiting.values())
 
     def find(self, to: str, done: bool, since: float, seconds: float) -> Sending | None:
@@ -93,13 +97,12 @@ class Courier:
             time.sleep(0.05)
         return None
 
-    def _run(self) -> None:
+    def _run(self, name: str) -> None:
+        waiting = self._waiting[name]
         while not self._over.wait(PAUSE):
-            for name, waiting in self._waiting.items():
-                if waiting:
-                    some = list(waiting)
-                    if getattr(self, f"_{name}")(some):
-                        del waiting[: len(some)]
+            if some := list(waiting):
+                if getattr(self, f"_{name}")(some):
+                    del waiting[: len(some)]
 
     def _note(self, to: str, *words: object) -> bool:
         began = time.monotonic()
