@@ -100,9 +100,8 @@ class Courier:
     def _run(self, name: str) -> None:
         waiting = self._waiting[name]
         while not self._over.wait(PAUSE):
-            if some := list(waiting):
-                if getattr(self, f"_{name}")(some):
-                    del waiting[: len(some)]
+            if (some := list(waiting)) and getattr(self, f"_{name}")(some):
+                del waiting[: len(some)]
 
     def _note(self, to: str, *words: object) -> bool:
         began = time.monotonic()
