@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import signal
 import tempfile
 import threading
 import time
@@ -67,6 +68,8 @@ class Cameras:
             one.start()
 
     def kill(self) -> None:
+        for one in self._both:  # both at one moment, and only then what takes time
+            os.kill(one.pid, signal.SIGKILL)
         for one in self._both:
             one.kill()
 
@@ -79,6 +82,9 @@ class Cameras:
             one.go_on()
 
     def stop(self) -> None:
+        for one in self._both:
+            if one.works:
+                os.kill(one.pid, signal.SIGTERM)
         for one in self._both:
             one.stop()
 

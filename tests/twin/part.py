@@ -64,6 +64,10 @@ class ProcessPart:
         return None
 
     @property
+    def works(self) -> bool:
+        return self._process is not None
+
+    @property
     def pid(self) -> int:
         assert self._process is not None, f"{self.name} has not been started"
         return self._process.pid
