@@ -77,6 +77,11 @@ class Courier:
         for waiting in self._waiting.values():
             waiting.append(number)
 
+    def send_again(self, to: str) -> None:
+        """Have the newest attempt sent once more: who has it keeps one."""
+        if not self._waiting[to] and self.ended:
+            self._waiting[to].append(self.ended[-1])
+
     def finish(self, seconds: float) -> bool:
         """Wait until nothing waits, then end; return whether nothing is left."""
         end = time.monotonic() + seconds

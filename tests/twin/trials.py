@@ -23,7 +23,7 @@ may be on its way, and the trainer looks every 20 ms."""
 LATE_S = 0.030
 """How late this computer may look or be woken [s]: what is measured includes it."""
 
-BUSY = r"encoders have not been read for 100 ms|the robot does not answer"
+BUSY = r"encoders have not been read for 100 ms|the robot does not answer|the loop has stopped"
 """What ends an attempt beside a robot that was left alone: the loop or its link was not served."""
 
 TRIES, PUSH_A = 4, 0.02
@@ -322,6 +322,8 @@ def _receiver(lab: Laboratory, name: str, fault: str, trial: Trial) -> None:
         good = lab.university.start
     else:
         moment, good = _begin(lab, name, fault, trial)
+        if name == "archive":
+            lab.courier.send_again(name)
     failed = lab.courier.find(name, False, moment, BACK_S)
     if failed is None:
         some = [one for one in lab.courier.sendings if one.to == name and one.ended > moment]
