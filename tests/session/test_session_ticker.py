@@ -1,7 +1,8 @@
-"""The ticker's rate: also after a late look no two are so near that the record keeps one of them."""
+"""The ticker's rate: also after a late look no two are so near that the record keeps one."""
 
 import threading
 import time
+from itertools import pairwise
 
 from app.session.samples import SAMPLE_PERIOD
 from app.session.ticker import Ticker
@@ -41,6 +42,6 @@ def test_a_late_look_is_not_followed_by_one_that_the_record_would_leave_out():
     ticker.open()
     assert enough.wait(10.0)
     ticker.close()
-    apart = [later - earlier for earlier, later in zip(times, times[1:], strict=False)]
+    apart = [later - earlier for earlier, later in pairwise(times)]
     assert min(apart) > SAMPLE_PERIOD, "a pose that was told is recorded"
     assert max(apart) > 1.5 * TICK_PERIOD, "one was late"
