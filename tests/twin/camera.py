@@ -31,8 +31,8 @@ class SceneFile:
     def __init__(self, path: Path, new: bool = False) -> None:
         if new:
             path.write_bytes(bytes(_SCENE.size))
-        self._file = path.open("r+b")
-        self._map = mmap.mmap(self._file.fileno(), _SCENE.size)
+        with path.open("r+b") as file:
+            self._map = mmap.mmap(file.fileno(), _SCENE.size)
         self._count = 0.0
 
     def write(self, p_band: np.ndarray, axis: np.ndarray) -> None:
