@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak check bench trial fuzz kills accuracy firmware promises tests-page portraits docs docs-pictures looks spelling wheel wheels sbom deb kit clean
+.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak twin check bench trial fuzz kills accuracy firmware promises tests-page portraits docs docs-pictures looks spelling wheel wheels sbom deb kit clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -67,6 +67,10 @@ MINUTES ?= 10
 SEED ?= 1
 careless: setup  ## the real window used at random by mouse and keyboard, and checked after every action
 	$(BIN)/python -m tests.careless --minutes $(MINUTES) --seed $(SEED) $(CARELESS)
+
+TWIN ?= --minutes 10
+twin: setup  ## every part of a laboratory on one computer, each killed, hung and restarted: TWIN="--parts robot,slicer"
+	$(BIN)/python -m tests.twin $(TWIN)
 
 LOAD ?= --stations 50 --attempts 20
 load: setup  ## stations that share a store while everything breaks, and what they end with: LOAD="--stations 8"

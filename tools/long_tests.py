@@ -34,7 +34,7 @@ HEAD = """# What is tested where
 | `make test-changed SINCE=main` | of these what changes since a commit can reach | less |
 | `make test-long` | the long ones | seven minutes |
 | `make test-all` | both | twelve minutes |
-| `make careless`, `soak`, `kills`, `fuzz`, `looks`, `by-hand`, `bench` | one each | your choice |
+| `make careless`, `soak`, `kills`, `twin`, `fuzz`, `looks`, `by-hand`, `bench` | each | yours |
 
 Continuous integration runs style, types and structure, both halves of the tests and a minute of
 `kills`. Each half ends with its twenty slowest tests.

@@ -87,8 +87,15 @@ def standstill_words(seconds: float) -> str:
     )
 
 
+NEAREST: Final = 0.75
+"""Share of a period from one look to the next at least, also after a late one."""
+
+
 class Ticker:
     """Calls `tick` every `period` [s] until closed; a late call is not caught up.
+
+    The next one after it comes no sooner than `NEAREST` periods: of two samples that are nearer the
+    record keeps one (`samples.SAMPLE_PERIOD`), and who listens live would have heard the other.
 
     The time of a `PacedClock` does not go on past a call that is still to be made.
 
@@ -130,8 +137,9 @@ class Ticker:
             return
         deadline = time.monotonic()
         while not self._stop.is_set():
+            soonest = time.monotonic() + NEAREST * self._period
             self._look()
-            deadline = max(deadline + self._period, time.monotonic())
+            deadline = max(deadline + self._period, soonest, time.monotonic())
             self._stop.wait(deadline - time.monotonic())
 
     def _run_paced(self, clock: PacedClock) -> None:

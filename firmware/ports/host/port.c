@@ -3,8 +3,10 @@
  *     acus-board [LINK]        prints the terminal's path, or makes a link to it
  *
  * Lines on the standard input: hot C, supply V, ready 0|1, turn LEFT RIGHT (degrees), slip LEFT
- * (counts that the left encoder loses), freeze 0|1 (the program hangs, its timer goes on), reset,
- * torques (prints what the motors give), quit. Each is answered `ok`. */
+ * (counts that the left encoder loses), hold D K (a hand that gives way slowly, N m s/rad at
+ * each joint, and pulls back to where they are now, N m/rad; 0 lets go), freeze 0|1 (the program
+ * hangs, its timer goes on), reset, torques (prints what the motors give), quit. Each is answered
+ * `ok`. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -32,6 +34,8 @@ static uint8_t incoming[512];
 static size_t came, taken;
 static health_t health = {25.0f, 24.0f, true};
 static double angle[JOINTS], speed[JOINTS]; /* of the joints [rad], [rad/s] */
+static double damped, pulled;               /* by a hand [N m s/rad], [N m/rad] */
+static double wanted[JOINTS];               /* where it pulls to [rad] */
 static long slipped[JOINTS], seen[JOINTS];  /* counts lost; count at the index looked for last */
 static double current[CHANNELS], reel[CHANNELS]; /* [A], [m/s] */
 #if CABLES
@@ -132,8 +136,10 @@ static void move(double seconds)
     }
 #else
     for (unsigned k = 0U; k < (unsigned)JOINTS; k++) {
-        const double torque = current[k] * (double)(GEAR * TORQUE_CONSTANT);
-        speed[k] += (torque - (VISCOUS * speed[k])) / INERTIA * seconds;
+        const double motor = current[k] * (double)(GEAR * TORQUE_CONSTANT);
+        const double torque = motor + (pulled * (wanted[k] - angle[k]));
+        const double rate = (VISCOUS + damped) / INERTIA;
+        speed[k] = (speed[k] + (torque / INERTIA * seconds)) / (1.0 + (rate * seconds));
         angle[k] += speed[k] * seconds;
     }
 #endif
@@ -203,6 +209,12 @@ static bool order(const char *line, bool *frozen)
         turn(a, b);
     } else if (strcmp(word, "slip") == 0) {
         slipped[0] += lround(a);
+    } else if (strcmp(word, "hold") == 0) {
+        port_lock(true);
+        damped = a;
+        pulled = b;
+        memcpy(wanted, angle, sizeof wanted);
+        port_lock(false);
     } else if (strcmp(word, "freeze") == 0) {
         *frozen = a != 0.0;
     } else if (strcmp(word, "reset") == 0) {
