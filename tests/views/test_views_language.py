@@ -228,6 +228,6 @@ def test_whoever_is_signed_in_stays_so_in_another_language(rebuilding, settle, w
         assert (ACCESS.student is not None) == (who == "student")
         assert ACCESS.role is role
         new = rebuilding.window
-        assert new.pages.currentWidget() is new.feature(PeopleFeature).page
+        assert settle(lambda: new.pages.currentWidget() is new.feature(PeopleFeature).page)
     finally:
         ACCESS.sign_in(None)
