@@ -81,13 +81,13 @@ def test_doing_nothing_far_from_the_target_earns_nothing() -> None:
 
 @pytest.mark.parametrize("error", ["depth", "lateral"])
 def test_what_an_attempt_was_like_counts_less_the_farther_it_ended_without_a_jump(error) -> None:
-    ends = np.arange(0.0, 0.012, 0.00002)
+    ends = np.arange(0.0, 0.012, 0.00006)
     totals = np.array([score(PERFECT.but(**{error: end}).trajectory()).total for end in ends])
     before = [score(PERFECT.but(**{error: e}).trajectory(), version=6).total for e in ends]
     within = ends <= 0.005  # the pass limit
     np.testing.assert_allclose(totals[within], np.array(before)[within])
     assert (np.diff(totals) <= 1e-9).all()
-    assert np.abs(np.diff(totals)).max() < 0.8  # of 0.02 mm
+    assert np.abs(np.diff(totals)).max() < 2.4  # of 0.06 mm
     assert totals[-1] < 5.0
 
 
