@@ -45,7 +45,7 @@ PYTEST := ./tools/twice-if-killed ./tools/with-display $(BIN)/python -m pytest -
 	--no-loadscope-reorder --durations 20 --durations-min 0.5 $(AGAIN) $(DEATHS)
 # Every process of the tests, and every program that one starts, reads what is compiled already.
 test test-long test-changed: export PYTHONDONTWRITEBYTECODE =
-test: setup  ## the tests of five minutes (no display and no network needed), a file at a time in each process
+test: setup  ## all but the long tests (no display and no network needed), a file at a time in each process
 	$(BIN)/python -m tools.compile_kernels
 	$(PYTEST) -m "not long" $(TEST)
 

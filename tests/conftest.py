@@ -5,6 +5,7 @@ import itertools
 import os
 import socket
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -70,20 +71,36 @@ def pytest_configure(config: pytest.Config) -> None:
     sock = getattr(getattr(config, "failures_db", None), "sock", None)  # of pytest-rerunfailures
     if sock is not None:
         sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    if not hasattr(config, "workerinput"):  # each process of the run inherits the moment
+        os.environ.pop("ACUS_TESTS_UNTIL", None)  # of a run around this one
+        if seconds := os.environ.pop("ACUS_TESTS_SECONDS", ""):
+            os.environ["ACUS_TESTS_UNTIL"] = str(time.time() + float(seconds))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Begin with the files that take longest, each as a whole; the others stay in their order.
 
-    What the file of `ACUS_TESTS_LEFT_OUT` names has passed already and is left out.
+    With `ACUS_TESTS_TURN` begin with the file of that number instead, and go round. What the file
+    of `ACUS_TESTS_LEFT_OUT` names has passed already and is left out.
     """
     rank = {ROOT / "tests" / name: place for place, name in enumerate(FIRST)}
+    if turn := os.environ.get("ACUS_TESTS_TURN"):
+        files = list(dict.fromkeys(item.path for item in items))
+        rank = {path: (k - int(turn)) % len(files) for k, path in enumerate(files)}
     items.sort(key=lambda item: rank.get(item.path, len(rank)))
     if file := os.environ.get("ACUS_TESTS_LEFT_OUT"):
         passed = set(Path(file).read_text(encoding="utf-8").splitlines())
         out = [item for item in items if item.nodeid in passed]
         config.hook.pytest_deselected(items=out)
         items[:] = [item for item in items if item.nodeid not in passed]
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup() -> None:
+    """Skip what is left when the time of `ACUS_TESTS_SECONDS` is over."""
+    until = os.environ.get("ACUS_TESTS_UNTIL")
+    if until and time.time() > float(until):
+        pytest.skip("the time of this run was over")
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:

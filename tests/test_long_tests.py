@@ -9,13 +9,16 @@ def test_the_page_of_tests_is_what_they_are_marked_with():
     assert PAGE.read_text(encoding="utf-8") == written(long_tests()), "write it: make tests-page"
 
 
-def test_the_two_halves_leave_nothing_out_and_continuous_integration_runs_both():
+def test_the_two_halves_leave_nothing_out_and_integration_runs_of_the_long_what_its_time_allows():
     recipes = (ROOT / "Makefile").read_text(encoding="utf-8")
     assert "\ntest: setup" in recipes
     assert '-m "not long" $(TEST)' in recipes
     assert "$(PYTEST) -m long $(TEST)" in recipes
     steps = (ROOT / ".ci/run").read_text(encoding="utf-8").splitlines()
-    assert {"make test", "make test-long"} <= set(steps)
+    limited = steps.index("export ACUS_TESTS_SECONDS=1200")
+    assert steps.index("make test") < limited < steps.index("make test-long")
+    assert "export ACUS_TESTS_TURN" in steps
+    assert "twenty minutes of the long" in PAGE.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("mark", ["long", "long()", "long('slow')", "long(1)"])

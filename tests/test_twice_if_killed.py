@@ -1,5 +1,6 @@
 """What runs the tests once more where one of their processes died."""
 
+import os
 import re
 import subprocess
 import sys
@@ -81,3 +82,46 @@ def test_what_passed_before_a_death_is_not_run_again(tmp_path):
 def test_a_death_is_named_at_the_end(tmp_path):
     _, output, _ = run(tmp_path, (DIED, 1), ("3 passed", 0))
     assert output.splitlines()[-1] == f"Died in the first run: {DIED}"
+
+
+SLOW = """
+import time
+
+def test_a():
+    time.sleep(0.7)
+
+def test_b():
+    time.sleep(0.7)
+"""
+
+
+def test_a_run_that_may_take_so_long_ends_then_and_begins_with_another_file_each_time(tmp_path):
+    hooks = (Path(__file__).parent / "conftest.py").read_text()
+    wanted = ("pytest_configure", "pytest_collection_modifyitems", "pytest_runtest_setup")
+    parts = [
+        re.search(rf"^(?:@[^\n]*\n)?def {name}\(.*?(?=^\S)", hooks, re.DOTALL | re.MULTILINE)[0]
+        for name in wanted
+    ]
+    head = "import os\nimport socket\nimport time\nfrom pathlib import Path\nimport pytest\n"
+    (tmp_path / "conftest.py").write_text(
+        f"{head}ROOT, FIRST = Path(), ()\n\n" + "\n\n".join(parts)
+    )
+    for name in "xyz":
+        (tmp_path / f"test_{name}.py").write_text(SLOW)
+    for turn, first in (("0", "x"), ("4", "y"), ("16777215", "x")):
+        limits = {"ACUS_TESTS_SECONDS": "1", "ACUS_TESTS_TURN": turn}
+        done = subprocess.run(
+            [sys.executable, "-m", "pytest", "-v", "-p", "no:cacheprovider", "-p", "no:randomly"]
+            + ["--numprocesses", "1", "--dist", "loadfile", "--no-loadscope-reorder"],
+            cwd=tmp_path,
+            env=os.environ | limits,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
+        )
+        assert done.returncode == 0, done.stdout
+        passed = re.findall(r"PASSED test_(\w)\.py::(\w+)", done.stdout)
+        assert passed[0] == (first, "test_a"), done.stdout
+        assert 1 <= len(passed) < 6
+        assert f"{len(passed)} passed, {6 - len(passed)} skipped" in done.stdout
