@@ -22133,6 +22133,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Archiv: {fault}</translation>
         </message>
         <message>
+            <source>{name} cannot be reached: no computer {host} is known</source>
+            <translation>{name} ist nicht erreichbar: kein Rechner {host} ist bekannt</translation>
+        </message>
+        <message>
+            <source>{name} cannot be reached: nothing listens at {host}</source>
+            <translation>{name} ist nicht erreichbar: unter {host} antwortet niemand</translation>
+        </message>
+        <message>
             <source>{name} does not answer, or not to the end, within {seconds:g} s: try again, what has been taken is kept once</source>
             <translation>{name} antwortet nicht oder nicht bis zum Ende innerhalb von {seconds:g} s: versuchen Sie es noch einmal, was angenommen wurde, bleibt einmal erhalten</translation>
         </message>

@@ -22133,6 +22133,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">archive : {fault}</translation>
         </message>
         <message>
+            <source>{name} cannot be reached: no computer {host} is known</source>
+            <translation>{name} est inaccessible : aucun ordinateur {host} n’est connu</translation>
+        </message>
+        <message>
+            <source>{name} cannot be reached: nothing listens at {host}</source>
+            <translation>{name} est inaccessible : rien n’écoute à {host}</translation>
+        </message>
+        <message>
             <source>{name} does not answer, or not to the end, within {seconds:g} s: try again, what has been taken is kept once</source>
             <translation>{name} ne répond pas, ou pas jusqu’au bout, en {seconds:g} s : réessayez, ce qui a été pris est gardé une seule fois</translation>
         </message>

@@ -333,3 +333,13 @@ def test_addresses_and_fields_that_cannot_be_used_are_named(tmp_path):
     assert (known.host, known.port, known.title) == ("pacs.school.example", 443, "DICOMWEB")
     told = CliRunner().invoke(build(), ["pacs", "add", "a", "--host", "b"])
     assert "--web" in told.output
+
+
+def test_a_name_that_nobody_has_and_a_port_where_nothing_listens_are_said_apart():
+    nobody = settings_of("https://pacs.invalid/dicom-web")
+    with pytest.raises(PacsUnreachableError, match=r"no computer pacs\.invalid is known"):
+        archive_of(nobody).echo()
+    with Scripted() as gone:
+        pass
+    with pytest.raises(PacsUnreachableError, match="nothing listens at 127"):
+        archive_of(settings_of(gone.url)).echo()

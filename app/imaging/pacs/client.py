@@ -24,9 +24,11 @@ from app.imaging.pacs.query import (
     FoundSeries,
     FoundStudy,
     Query,
+    by_number,
     found_series,
     found_study,
     image_keys,
+    newest_first,
     series_keys,
     study_keys,
     wanted_keys,
@@ -37,7 +39,6 @@ _VERIFICATION = "1.2.840.10008.1.1"
 _FIND = "1.2.840.10008.5.1.4.1.2.2.1"
 _MOVE = "1.2.840.10008.5.1.4.1.2.2.2"
 _GET = "1.2.840.10008.5.1.4.1.2.2.3"
-MOST_STUDIES = 200
 
 
 class Pacs:
@@ -69,18 +70,7 @@ class Pacs:
         """
         with association(self.settings, [(_FIND, ())], progress or Progress()) as linked:
             answers = self._answers(linked, study_keys(query), "looking for studies")
-            found = []
-            for answer in answers:
-                found.append(found_study(answer))
-                if len(found) > MOST_STUDIES:
-                    raise PacsError(
-                        sentence(
-                            "more than {most_studies} studies match; narrow the search by date "
-                            "or patient",
-                            most_studies=MOST_STUDIES,
-                        )
-                    )
-        return sorted(found, key=lambda study: study.date, reverse=True)
+            return newest_first(found_study(answer) for answer in answers)
 
     def find_series(
         self, study: FoundStudy, modality: str = "CT", progress: Progress | None = None
@@ -93,8 +83,7 @@ class Pacs:
         with association(self.settings, [(_FIND, ())], progress or Progress()) as linked:
             keys = series_keys(study.uid, modality)
             answers = self._answers(linked, keys, "looking for series")
-            found = [found_series(answer, study) for answer in answers]
-        return sorted(found, key=lambda series: (len(series.number), series.number))
+            return by_number(found_series(answer, study) for answer in answers)
 
     def instances(
         self,

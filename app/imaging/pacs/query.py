@@ -1,11 +1,14 @@
 """Questions to a PACS and what it finds (PS3.4 C.6.2, study root)."""
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 from app.core.errors import ConfigurationError
 from app.core.messages import sentence
+from app.imaging.pacs.errors import PacsError
 
 _DATES = re.compile(r"(\d{8})?(-(\d{8})?)?")
 STUDY_WANTED = (
@@ -91,6 +94,31 @@ class FoundSeries:
     description: str
     body_part: str
     instances: int | None
+
+
+MOST_STUDIES = 200
+
+
+def newest_first(studies: Iterable[FoundStudy]) -> list[FoundStudy]:
+    """Return studies as they are listed; no more is read than may be.
+
+    Raises:
+        PacsError: if there are more than 200 of them.
+    """
+    result = list(islice(studies, MOST_STUDIES + 1))
+    if len(result) > MOST_STUDIES:
+        raise PacsError(
+            sentence(
+                "more than {most_studies} studies match; narrow the search by date or patient",
+                most_studies=MOST_STUDIES,
+            )
+        )
+    return sorted(result, key=lambda study: study.date, reverse=True)
+
+
+def by_number(series: Iterable[FoundSeries]) -> list[FoundSeries]:
+    """Return series as they are listed."""
+    return sorted(series, key=lambda one: (len(one.number), one.number))
 
 
 def study_keys(query: Query) -> Any:

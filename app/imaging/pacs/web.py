@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import socket
 import ssl
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -92,6 +93,19 @@ class WebArchive:
                     "ask who runs it, or name its authority by SSL_CERT_FILE",
                     name=self.name,
                     reason=error.verify_message,
+                )
+            ) from error
+        except (socket.gaierror, ConnectionRefusedError) as error:
+            host = urlsplit(self.url).netloc
+            raise PacsUnreachableError(
+                sentence(
+                    "{name} cannot be reached: no computer {host} is known",
+                    name=self.name,
+                    host=host,
+                )
+                if isinstance(error, socket.gaierror)
+                else sentence(
+                    "{name} cannot be reached: nothing listens at {host}", name=self.name, host=host
                 )
             ) from error
         except (OSError, HTTPException) as error:

@@ -19,19 +19,21 @@ from app.core.errors import ConfigurationError
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.web import WebAnswer
-from app.imaging.pacs.client import MOST_STUDIES
 from app.imaging.pacs.encryption import client_context
 from app.imaging.pacs.errors import PacsDataError, PacsError, PacsUnreachableError
 from app.imaging.pacs.incoming import MOST_PICTURES, Incoming, PictureCounter
 from app.imaging.pacs.limits import LARGEST_PICTURE, SPOOLED, RequestLimits
 from app.imaging.pacs.query import (
+    MOST_STUDIES,
     SERIES_WANTED,
     STUDY_WANTED,
     FoundSeries,
     FoundStudy,
     Query,
+    by_number,
     found_series,
     found_study,
+    newest_first,
 )
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.pacs.web import WebArchive, document_of
@@ -88,15 +90,7 @@ class WebPacs:
         wanted = {name: value for name, value in asked.items() if value}
         wanted |= {"includefield": ",".join(STUDY_WANTED), "limit": str(MOST_STUDIES + 1)}
         limits = RequestLimits(self.settings, progress or Progress())
-        result = [found_study(answer) for answer in self._asked((), wanted, limits)]
-        if len(result) > MOST_STUDIES:
-            raise PacsError(
-                sentence(
-                    "more than {most_studies} studies match; narrow the search by date or patient",
-                    most_studies=MOST_STUDIES,
-                )
-            )
-        return sorted(result, key=lambda study: study.date, reverse=True)
+        return newest_first(found_study(answer) for answer in self._asked((), wanted, limits))
 
     def find_series(
         self, study: FoundStudy, modality: str = "CT", progress: Progress | None = None
@@ -110,8 +104,8 @@ class WebPacs:
         wanted |= {"includefield": ",".join(SERIES_WANTED)}
         limits = RequestLimits(self.settings, progress or Progress())
         path = (self._uid(study.uid), "series")
-        result = [found_series(answer, study) for answer in self._asked(path, wanted, limits)]
-        return sorted(result, key=lambda series: (len(series.number), series.number))
+        answers = self._asked(path, wanted, limits)
+        return by_number(found_series(answer, study) for answer in answers)
 
     def retrieve(
         self, study_uid: str, series_uid: str, incoming: Incoming, progress: Progress
