@@ -37,6 +37,7 @@ from app.exercises.parts import (
     TissueSource,
     ViewName,
 )
+from app.exercises.procedure import OF_PROCEDURES, ProcedurePart
 from app.exercises.reading import ReadingPart
 from app.exercises.touching import TouchPart, TouchTask, touch_task
 from app.planning.placement import PlacedPlan, Placement
@@ -95,6 +96,8 @@ class Exercise(Strict):
             exercise's own level. No hand on a robot is made unsteady.
         touch: targets that the tip of a long tool has to touch one after the other; the hand then
             moves the tool's handle. None for a needle that goes to the plan's target.
+        procedure: steps of the intervention beside the needle's way: local anaesthetic, samples;
+            None for none.
         drill: of which exercise this is a drill, and what it practises; None for a whole one.
         seed: of everything random in the attempt.
     """
@@ -132,6 +135,7 @@ class Exercise(Strict):
     hand: HandName | None = None
     unsteady_hand: Annotated[int, Field(ge=0, le=9)] | None = None
     touch: TouchPart | None = None
+    procedure: ProcedurePart | None = None
     drill: DrillPart | None = None
     seed: Annotated[int, Field(ge=0)] = 1
     _is_probe: bool = PrivateAttr(default=False)
@@ -262,6 +266,29 @@ class Exercise(Strict):
                     metric=judged[0],
                 )
             )
+        return self
+
+    @model_validator(mode="after")
+    def _procedure_can_be_done(self) -> Exercise:
+        for part, metrics in OF_PROCEDURES.items():
+            judged = sorted(metrics & set(self.tolerances))
+            if judged and getattr(self.procedure, part, None) is None:
+                raise ValueError(
+                    sentence(
+                        "tolerances: {metric} is of a step that the exercise does not ask for: "
+                        "add {part} to procedure, or leave it out",
+                        metric=judged[0],
+                        part=part,
+                    )
+                )
+        if self.procedure is not None and self.tissue is not TissueSource.FIELD:
+            raise ValueError(
+                sentence(
+                    "procedure: what a step meets is looked up in the patient: use tissue: field"
+                )
+            )
+        if self.procedure is not None and self.touch is not None:
+            raise ValueError(sentence("procedure: a tool that touches targets takes no steps"))
         return self
 
     @model_validator(mode="after")

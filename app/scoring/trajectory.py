@@ -17,6 +17,7 @@ from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
 from app.scoring.met import Met
+from app.scoring.procedure import ProcedureMarks
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.touches import Touches
@@ -76,6 +77,7 @@ class Trajectory:
         met: what the needle met in the patient; None where nothing could tell.
         planned: what a planner says of the path that the student chose; None where it was given, or
             nothing could tell.
+        procedure: steps of the intervention; None where the exercise has none.
         computer: time of pauses because the computer was too slow for its simulated cameras [s].
         scoring_version: of the rules that it is measured by (`scoring.version`).
         seen_from: from this depth of the tip on the cameras see the marker wherever the needle
@@ -106,6 +108,7 @@ class Trajectory:
     touches: Touches | None = None
     met: tuple[Met, ...] | None = None
     planned: JudgedPlan | None = None
+    procedure: ProcedureMarks | None = None
     computer: float = 0.0
     scoring_version: int = SCORING_VERSION
     seen_from: float = np.inf
@@ -241,6 +244,16 @@ class Trajectory:
         if self.met is None:
             raise MetricNotAskedError(sentence("no tissue field told what the needle met"))
         return self.met
+
+    def steps(self) -> ProcedureMarks:
+        """Return the steps of the intervention.
+
+        Raises:
+            MetricNotAskedError: if the exercise has none.
+        """
+        if self.procedure is None:
+            raise MetricNotAskedError(sentence("the exercise asks for no steps of a procedure"))
+        return self.procedure
 
     def to_touch(self) -> Touches:
         """Return the targets that were to be touched.

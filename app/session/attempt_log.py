@@ -23,6 +23,7 @@ from app.session.journal import Journal, Step, carry_out, sealing
 from app.session.machine import Attempt
 from app.session.planned import event_of as event_of_plan
 from app.session.planned import judged_plan_of
+from app.session.procedure import marks_of
 from app.session.recorder import Recorder
 from app.session.recording import Recording, deferred_inputs
 from app.session.result import AttemptResult
@@ -130,6 +131,7 @@ class AttemptLog:
                 computer=waited_for_computer(self.events),
                 seen_from=seen_from(attached),
                 planned=planned,
+                procedure=marks_of(self.events, samples, met),
             )
             score = self.scorer(path)
         except AcusError as error:

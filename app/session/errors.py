@@ -15,6 +15,10 @@ class ScanNotPossibleError(SessionError):
     """A control scan while nobody knows where the needle is; it is not counted."""
 
 
+class ProcedureNotPossibleError(SessionError):
+    """A step of the procedure cannot be done now; nothing has changed."""
+
+
 class ControlLockedError(SessionError):
     """A control that the exercise keeps as it is."""
 

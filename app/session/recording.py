@@ -21,6 +21,7 @@ from app.session.ct_facts import CtFacts
 from app.session.errors import BrokenRecordingError, BudgetExceededError
 from app.session.facts import PLAN, placed_plan
 from app.session.planned import judged_plan
+from app.session.procedure import marks_of
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
 from app.session.samples import Samples, bends, flags, floats, known, spreads, vectors, words
@@ -95,6 +96,7 @@ class Recording:
         renders = renders_force(self.metadata)
         scans = scan_marks(self.events)
         risks = risk_marks(self.events)
+        met = tissues_met(self.events)
         return trajectory(
             self.samples,
             self.placed_plan(),
@@ -105,10 +107,11 @@ class Recording:
             excused(self.events),
             agreement_of(self.metadata),
             touches_of(self.events),
-            tissues_met(self.events),
+            met,
             computer=waited_for_computer(self.events),
             seen_from=seen_from(self.attachments),
             planned=judged_plan(self.events),
+            procedure=marks_of(self.events, self.samples, met),
         )
 
     def placed_plan(self) -> PlacedPlan:

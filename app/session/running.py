@@ -7,15 +7,17 @@ from typing import Final
 from app.core.events import Event, EventQueue
 from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
+from app.imaging.field import TissueField
 from app.imaging.scan_order import ScanOrder
-from app.session import control_scan, machine
+from app.session import control_scan, machine, procedure
 from app.session.abort_reasons import abort_words
 from app.session.attempt_log import AttemptLog
-from app.session.errors import IllegalTransitionError
+from app.session.errors import IllegalTransitionError, ProcedureNotPossibleError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
 from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
+from app.session.procedure import ProcedureState, Step
 from app.session.result import AttemptResult
 from app.session.snapshot import DRAWN_LATE
 from app.session.transitions import (
@@ -253,6 +255,34 @@ class RunningAttempt:
             data["tip_m"] = seen.pose.p_tip.tolist()
         self.say("scan", f"control scan {self.log.scans}", now, data)
         return self.log.scans
+
+    def perform(
+        self,
+        state: ProcedureState | None,
+        step: Step,
+        seen: Observation | None,
+        now: float,
+        field: TissueField | None,
+        throw: int = 0,
+        notch_deg: float = 0.0,
+    ) -> ProcedureState:
+        """Do a step of the procedure at `now` [s]; see `procedure.perform`.
+
+        Raises:
+            ProcedureNotPossibleError: says why; nothing has changed then.
+        """
+        if state is None or self.log is None or not self.counts or self.paused:
+            raise ProcedureNotPossibleError(
+                sentence(
+                    "no step of a procedure is possible now: begin an attempt at an exercise that "
+                    "asks for it"
+                )
+            )
+        state, words, data = procedure.perform(
+            state, step, seen, self.log.placed, field, throw, notch_deg, now
+        )
+        self.say(procedure.KIND, words, now, data)
+        return state
 
     def finish(
         self,

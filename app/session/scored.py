@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.planning.judged import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.scoring.met import Met
+from app.scoring.procedure import ProcedureMarks
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
@@ -79,6 +81,7 @@ def trajectory(
     computer: float = 0.0,
     seen_from: float = np.inf,
     planned: JudgedPlan | None = None,
+    procedure: ProcedureMarks | None = None,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -101,6 +104,8 @@ def trajectory(
         computer: time of pauses for simulated pictures that came late [s].
         seen_from: depth from which on the cameras can see the marker, as the record has it [m].
         planned: what a planner says of the student's own path; None where it was given.
+        procedure: steps of the intervention; None without. While another needle than the
+            exercise's own is held, the attempt counts as aligning, and what that one met as its.
 
     Raises:
         SessionError: if no sample has a direction of the needle.
@@ -124,7 +129,7 @@ def trajectory(
         axis=samples.axis[direction],
         depth=depth[place],
         felt=np.nan_to_num(samples.felt[rising], nan=0.0) if renders else None,
-        phase=_phases(samples.state[rising]),  # type: ignore[arg-type]  # names are taken as well as codes
+        phase=_own(_phases(samples.state[rising]), samples.time[rising], procedure),  # type: ignore[arg-type]  # names are taken as well as codes
         depth_valid=np.isin(samples.depth_source[rising], FROM_CAMERAS) & samples.valid[rising],
         hub=hub if np.isfinite(hub).all() else None,
         guide=guide if np.isfinite(guide).all() else None,
@@ -136,8 +141,9 @@ def trajectory(
         spread=None if samples.spread is None else samples.spread[rising],
         agreement=agreement,
         touches=touches,
-        met=met,
+        met=_met_by_own(met, procedure),
         planned=planned,
+        procedure=procedure,
         computer=computer,
         seen_from=seen_from,
         clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
@@ -154,6 +160,26 @@ def _last(known: NDArray[np.bool_]) -> NDArray[np.intp]:
 def _phases(states: NDArray[np.str_]) -> NDArray[np.str_]:
     """States as scoring knows them: what went before the attempt is no part of it."""
     return np.where(states == State.WITHDRAWING.value, State.READY.value, states)
+
+
+def _own(
+    states: NDArray[np.str_], time: FloatArray, procedure: ProcedureMarks | None
+) -> NDArray[np.str_]:
+    """States of the exercise's own needle: until it is held, none is in the body."""
+    if procedure is None or procedure.needle_from is None:
+        return states
+    other = (time < procedure.needle_from) & np.isin(
+        states, (State.INSERTING.value, State.HOLDING.value)
+    )
+    return np.where(other, State.ALIGNING.value, states)
+
+
+def _met_by_own(
+    met: tuple[Met, ...] | None, procedure: ProcedureMarks | None
+) -> tuple[Met, ...] | None:
+    if met is None or procedure is None or procedure.needle_from is None:
+        return met
+    return tuple(one for one in met if one.time >= procedure.needle_from)
 
 
 def scorer(exercise: Exercise, hand: str = "") -> Callable[[Trajectory], Score]:

@@ -21,6 +21,7 @@ from app.planning.placement import PlacedPlan
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
+from app.session.procedure import ProcedureState
 from app.session.recorder import RecordingStatus
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
@@ -81,6 +82,7 @@ class Snapshot:
         roll: of a bevelled needle [rad], clockwise seen from the hub; None where none is bevelled.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
         touch: how the attempt stands with its targets; None where there is nothing to touch.
+        procedure: how it stands with the steps of the procedure; None where there are none.
         pause: why the attempt waits; None while it does not.
         simulated: whether robot and cameras both are: nobody can show them a marker.
     """
@@ -111,6 +113,7 @@ class Snapshot:
     breath: BreathHold | None = None
     roll: float | None = None
     touch: TouchState | None = None
+    procedure: ProcedureState | None = None
     pause: PauseCause | None = None
     simulated: bool = False
 

@@ -29,6 +29,8 @@ from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
+from app.session.procedure import KIND as PROCEDURE
+from app.session.procedure import ProcedureState, Step, begin_data
 from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk
@@ -115,6 +117,7 @@ class Trainer:
         self._placed = placed
         self._exercise = exercise
         self._touching = self._to_touch(placed)
+        self._procedure: ProcedureState | None = None
         self._dial = exercise.assistance if dial is None else dial
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
@@ -269,6 +272,10 @@ class Trainer:
             if self._touching is not None:
                 words, data = begin_words(self._touching.state)
                 self._running.say(TASK, words, now, data)
+            if exercise_part := self._exercise.procedure:
+                self._procedure = ProcedureState.at_begin(exercise_part)
+                data = begin_data(self._procedure)
+                self._running.say(PROCEDURE, self._procedure.words, now, data)
             self.heartbeat()
             if out is None:
                 self._running.say(WITHDRAWAL, self._withdrawal.words, now)
@@ -310,6 +317,25 @@ class Trainer:
         with self._lock:
             now = self._clock.now()
             return self._running.scan(self._sources.seen, now, order, dose, guidance.streak)
+
+    def perform(self, step: Step, throw: int = 0, notch_deg: float = 0.0) -> ProcedureState:
+        """Do a step of the exercise's procedure; returns how it stands then.
+
+        Args:
+            step: what is done.
+            throw: which of the biopsy gun's settings, for `Step.FIRE`.
+            notch_deg: direction of its notch, for `Step.FIRE`; see `planning.sampling.notch_side`.
+
+        Raises:
+            ProcedureNotPossibleError: says why, and what to do; nothing has changed then.
+        """
+        self.resting.want()
+        with self._lock:
+            now = self._clock.now()
+            self._procedure = self._running.perform(
+                self._procedure, step, self._sources.seen, now, self._tissues, throw, notch_deg
+            )
+            return self._procedure
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
@@ -645,6 +671,7 @@ class Trainer:
             breath=None if self._breath is None else self._breath.now,
             roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
             touch=None if self._touching is None else self._touching.state,
+            procedure=self._procedure if self._exercise.procedure else None,
             pause=self._running.pause_cause,
             simulated=self._simulated,
         )

@@ -1,0 +1,117 @@
+"""Steps of an intervention that an exercise asks for beside the needle's way to its target.
+
+Each is a part of its own; what an exercise does not name is neither simulated nor shown nor judged.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Final
+
+from pydantic import Field, model_validator
+
+from app.core.configuration import Strict
+from app.core.messages import sentence, sentence_of
+from app.planning.errors import PlanError
+from app.planning.sampling import Throw
+
+OF_PROCEDURES: Final = {
+    "anaesthetic": frozenset({"anaesthetic_gap", "pierced_by_anaesthetic"}),
+    "biopsy": frozenset({"diagnostic_samples", "lesion_in_sample", "throw_hits", "hub_open_time"}),
+}
+"""Metrics that a part of the procedure alone can give."""
+
+
+class AnaestheticPart(Strict):
+    """Local anaesthetic before the needle: down to the membrane, not through it.
+
+    Attributes:
+        most_deposits: so many times it can be given.
+    """
+
+    most_deposits: Annotated[int, Field(ge=1, le=20)] = 6
+
+
+class ThrowPart(Strict):
+    """One setting of the biopsy gun; see `planning.sampling.Throw`.
+
+    Attributes:
+        throw_mm: how far its needle runs ahead of the outer needle's tip.
+        notch_mm: length of the notch.
+        dead_tip_mm: from the notch's end to the needle's.
+    """
+
+    throw_mm: Annotated[float, Field(gt=0.0, le=40.0)]
+    notch_mm: Annotated[float, Field(gt=0.0)]
+    dead_tip_mm: Annotated[float, Field(gt=0.0)]
+
+    @model_validator(mode="after")
+    def _fits(self) -> ThrowPart:
+        try:
+            self.throw()
+        except PlanError as error:
+            raise ValueError(sentence_of(error)) from error
+        return self
+
+    def throw(self, radius_mm: float = 0.4) -> Throw:
+        """Return it as the value that planning uses."""
+        return Throw(self.throw_mm, self.notch_mm, self.dead_tip_mm, radius_mm)
+
+
+class BiopsyPart(Strict):
+    """A coaxial needle with stylet, and the gun that goes through it.
+
+    Attributes:
+        throws: settings of the gun that may be chosen, the first at the beginning.
+        core_mm: diameter of the core.
+        diagnostic_mm: a core with so much lesion in it suffices for a diagnosis.
+        most_samples: so many times the gun can be fired.
+    """
+
+    throws: Annotated[tuple[ThrowPart, ...], Field(min_length=1, max_length=4)] = (
+        ThrowPart(throw_mm=20.0, notch_mm=14.0, dead_tip_mm=6.0),
+        ThrowPart(throw_mm=10.0, notch_mm=6.0, dead_tip_mm=4.0),
+    )
+    core_mm: Annotated[float, Field(gt=0.0, le=4.0)] = 0.8
+    diagnostic_mm: Annotated[float, Field(gt=0.0, le=40.0)] = 3.0
+    most_samples: Annotated[int, Field(ge=1, le=20)] = 6
+
+    @model_validator(mode="after")
+    def _can_be_diagnostic(self) -> BiopsyPart:
+        longest = max(part.notch_mm for part in self.throws)
+        if self.diagnostic_mm > longest:
+            raise ValueError(
+                sentence(
+                    "diagnostic_mm {diagnostic_mm:g} is more than the longest notch holds, "
+                    "{longest:g} mm: no sample could suffice",
+                    diagnostic_mm=self.diagnostic_mm,
+                    longest=longest,
+                )
+            )
+        return self
+
+    def throw(self, number: int) -> Throw:
+        """Return one of the gun's settings."""
+        return self.throws[number].throw(0.5 * self.core_mm)
+
+
+class ProcedurePart(Strict):
+    """What belongs to the intervention; None for each step that the exercise does without.
+
+    Attributes:
+        anaesthetic: local anaesthetic first, by a needle of its own.
+        biopsy: samples through a coaxial needle.
+    """
+
+    anaesthetic: AnaestheticPart | None = None
+    biopsy: BiopsyPart | None = None
+
+    @model_validator(mode="after")
+    def _asks_for_something(self) -> ProcedurePart:
+        if not any(getattr(self, name) is not None for name in type(self).model_fields):
+            raise ValueError(
+                sentence(
+                    "procedure names no step; there are {names}",
+                    names=", ".join(type(self).model_fields),
+                )
+            )
+        return self

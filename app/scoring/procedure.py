@@ -1,0 +1,82 @@
+"""The steps of an intervention as scoring sees them: deposits, samples, an open hub."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+from app.core.messages import sentence
+from app.scoring.errors import TrajectoryError
+from app.scoring.met import Met
+
+
+@dataclass(frozen=True, slots=True)
+class Deposit:
+    """Local anaesthetic that was given once.
+
+    Attributes:
+        time: monotonic time [s].
+        depth_mm: of the tip.
+        gap_mm: from the tip to the membrane that is to be left whole, along the needle; negative
+            beyond it, None where no such membrane is known.
+
+    Raises:
+        TrajectoryError: if a number is not finite.
+    """
+
+    time: float
+    depth_mm: float
+    gap_mm: float | None
+
+    def __post_init__(self) -> None:
+        _check(self.time, self.depth_mm, self.gap_mm or 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class SampleMark:
+    """One sample of the biopsy gun.
+
+    Attributes:
+        time: monotonic time [s].
+        lesion_mm: length of lesion in the core.
+        is_diagnostic: whether that suffices, by the exercise.
+        hits: what the throw met and should not have, in words.
+
+    Raises:
+        TrajectoryError: if a number is not finite.
+    """
+
+    time: float
+    lesion_mm: float
+    is_diagnostic: bool
+    hits: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        _check(self.time, self.lesion_mm)
+
+
+@dataclass(frozen=True, slots=True)
+class ProcedureMarks:
+    """What was done beside moving the needle.
+
+    Attributes:
+        deposits: local anaesthetic, in order.
+        samples: of the gun, in order.
+        open_s: time for which the outer needle lay in the body with its hub open to air [s].
+        needle_from: moment from which the needle of the exercise itself was held [s]; None where it
+            was from the beginning.
+        met_before: what the needle for local anaesthetic met.
+    """
+
+    deposits: tuple[Deposit, ...] = ()
+    samples: tuple[SampleMark, ...] = ()
+    open_s: float = 0.0
+    needle_from: float | None = None
+    met_before: tuple[Met, ...] = ()
+
+
+def _check(*numbers: float) -> None:
+    if not all(map(isfinite, numbers)):
+        raise TrajectoryError(
+            sentence("a step of the procedure at {time} s: a number is not finite", time=numbers[0])
+        )

@@ -1,0 +1,384 @@
+"""The steps of an intervention during an attempt: which may follow which, and what each leaves.
+
+The shaft in the robot stands for every needle in turn: first that for local anaesthetic, then the
+outer needle with its stylet, which makes room for the biopsy gun. Each step is an event of the
+record, with the needle as it was then; scoring reads these back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.events import Event
+from app.core.messages import sentence
+from app.core.units import MILLIMETRE
+from app.imaging.field.tissue_field import TissueField
+from app.planning.errors import PlanError
+from app.planning.membrane import membrane_on
+from app.planning.placement import PlacedPlan
+from app.planning.sampling import core
+from app.scoring.errors import TrajectoryError
+from app.scoring.met import Met
+from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
+from app.session.errors import ProcedureNotPossibleError
+from app.session.samples import Samples
+from app.simulation.bound_field import BoundField
+
+if TYPE_CHECKING:
+    from app.exercises.procedure import ProcedurePart
+    from app.session.observation import Observation
+
+KIND: Final = "procedure"
+"""Kind of the event."""
+
+VERSION: Final = 1
+
+
+class Tool(StrEnum):
+    """What the shaft in the robot stands for."""
+
+    ANAESTHETIC = "anaesthetic"
+    """The needle for local anaesthetic."""
+    STYLET = "stylet"
+    """The outer needle, closed by its stylet."""
+    OPEN = "open"
+    """The outer needle, open to air."""
+    GUN = "gun"
+    """The outer needle with the biopsy gun in it, cocked."""
+    FIRED = "fired"
+    """The same after its throw."""
+
+
+class Step(StrEnum):
+    """What can be done."""
+
+    INJECT = "inject"
+    TAKE_NEEDLE = "take_needle"
+    STYLET_OUT = "stylet_out"
+    STYLET_IN = "stylet_in"
+    GUN_IN = "gun_in"
+    FIRE = "fire"
+    GUN_OUT = "gun_out"
+
+
+STEP_WORDS: Final = {
+    Step.INJECT: sentence("local anaesthetic given"),
+    Step.TAKE_NEEDLE: sentence("the outer needle is taken"),
+    Step.STYLET_OUT: sentence("stylet out: the hub is open"),
+    Step.STYLET_IN: sentence("stylet in"),
+    Step.GUN_IN: sentence("biopsy gun in"),
+    Step.FIRE: sentence("biopsy gun fired"),
+    Step.GUN_OUT: sentence("biopsy gun out: the hub is open"),
+}
+
+_FROM: Final = {
+    Step.INJECT: (Tool.ANAESTHETIC,),
+    Step.TAKE_NEEDLE: (Tool.ANAESTHETIC,),
+    Step.STYLET_OUT: (Tool.STYLET,),
+    Step.STYLET_IN: (Tool.OPEN,),
+    Step.GUN_IN: (Tool.OPEN,),
+    Step.FIRE: (Tool.GUN,),
+    Step.GUN_OUT: (Tool.GUN, Tool.FIRED),
+}
+_TO: Final = {
+    Step.TAKE_NEEDLE: Tool.STYLET,
+    Step.STYLET_OUT: Tool.OPEN,
+    Step.STYLET_IN: Tool.STYLET,
+    Step.GUN_IN: Tool.GUN,
+    Step.FIRE: Tool.FIRED,
+    Step.GUN_OUT: Tool.OPEN,
+}
+TOOL_WORDS: Final = {
+    Tool.ANAESTHETIC: sentence("needle for local anaesthetic"),
+    Tool.STYLET: sentence("outer needle with its stylet"),
+    Tool.OPEN: sentence("outer needle, open to air"),
+    Tool.GUN: sentence("outer needle with the biopsy gun, cocked"),
+    Tool.FIRED: sentence("outer needle with the biopsy gun, fired"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class ProcedureState:
+    """How an attempt stands with its steps.
+
+    Attributes:
+        part: what the exercise asks for.
+        tool: what the shaft stands for now.
+        deposits: how often local anaesthetic was given.
+        samples: what each sample was, in order.
+    """
+
+    part: ProcedurePart
+    tool: Tool
+    deposits: int = 0
+    samples: tuple[SampleMark, ...] = ()
+
+    @classmethod
+    def at_begin(cls, part: ProcedurePart) -> ProcedureState:
+        """Return the state with which an attempt begins."""
+        return cls(part, Tool.STYLET if part.anaesthetic is None else Tool.ANAESTHETIC)
+
+    @property
+    def words(self) -> str:
+        """Return what is held, in words."""
+        return TOOL_WORDS[self.tool]
+
+    @property
+    def possible(self) -> tuple[Step, ...]:
+        """Return which steps may follow, as far as needles and numbers are concerned."""
+        return tuple(step for step in Step if not self.refusal(step))
+
+    def refusal(self, step: Step) -> str:
+        """Return why a step cannot follow now; empty if it can."""
+        if step is not Step.TAKE_NEEDLE and step is not Step.INJECT and self.part.biopsy is None:
+            return sentence("this exercise takes no samples")
+        if self.tool not in _FROM[step]:
+            return sentence(
+                "not possible now: held is the {tool}",
+                tool=TOOL_WORDS[self.tool],
+            )
+        anaesthetic, biopsy = self.part.anaesthetic, self.part.biopsy
+        if step is Step.INJECT and anaesthetic and self.deposits >= anaesthetic.most_deposits:
+            return sentence("the syringe is empty after {count} times", count=self.deposits)
+        if step is Step.GUN_IN and biopsy and len(self.samples) >= biopsy.most_samples:
+            return sentence(
+                "{count} samples were taken: the exercise allows no more", count=len(self.samples)
+            )
+        return ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Needle:
+    """The needle where the tissue about it rests, LPS [mm]."""
+
+    depth_mm: float
+    tip_mm: FloatArray
+    way: FloatArray
+    entry_mm: FloatArray
+    target_mm: FloatArray
+
+
+def perform(
+    state: ProcedureState,
+    step: Step,
+    look: Observation | None,
+    placed: PlacedPlan,
+    field: TissueField | None,
+    throw: int = 0,
+    notch_deg: float = 0.0,
+    time: float = 0.0,
+) -> tuple[ProcedureState, str, dict[str, object]]:
+    """Do a step.
+
+    Args:
+        state: as it stands.
+        step: what is done.
+        look: newest observation of robot and cameras.
+        placed: the plan, for where the patient lies.
+        field: of the patient's tissue.
+        throw: which of the gun's settings, for `FIRE`.
+        notch_deg: direction of the notch, for `FIRE`.
+        time: monotonic time [s].
+
+    Returns:
+        How it stands then; what is told; the event's data.
+
+    Raises:
+        ProcedureNotPossibleError: says why, and what to do; nothing has changed then.
+    """
+    if refusal := state.refusal(step):
+        raise ProcedureNotPossibleError(refusal)
+    _require_place(step, look)
+    data: dict[str, object] = {"version": VERSION, "step": step.value}
+    state = replace(state, tool=_TO.get(step, state.tool))
+    words = STEP_WORDS[step]
+    if step not in (Step.INJECT, Step.FIRE):
+        return state, words, data
+    needle = _needle(look, placed, field)
+    data |= {
+        "depth_mm": needle.depth_mm,
+        "tip_lps_mm": needle.tip_mm.tolist(),
+        "axis_lps": needle.way.tolist(),
+    }
+    if step is Step.INJECT:
+        deposit = _deposit(field, needle, time)
+        data |= {"gap_mm": deposit.gap_mm}
+        state = replace(state, deposits=state.deposits + 1)
+        return state, words, data
+    mark, more = _sample(state, field, needle, throw, notch_deg, time)
+    data |= more
+    state = replace(state, samples=(*state.samples, mark))
+    return state, words, data
+
+
+def marks_of(
+    events: Sequence[Event], samples: Samples, met: tuple[Met, ...] | None
+) -> ProcedureMarks | None:
+    """Return what scoring sees of the steps; None where the record has none.
+
+    Damaged events are left out.
+    """
+    steps = [(event, _step(event)) for event in events if event.kind == KIND]
+    if not steps:
+        return None
+    deposits: list[Deposit] = []
+    taken: list[SampleMark] = []
+    needle_from: float | None = None
+    open_from: float | None = None
+    opened: list[tuple[float, float]] = []
+    for event, step in steps:
+        data: dict[str, Any] = dict(event.data)
+        with suppress(LookupError, TypeError, ValueError, TrajectoryError):
+            if step is Step.INJECT:
+                gap = data["gap_mm"]
+                deposits.append(
+                    Deposit(
+                        event.time, float(data["depth_mm"]), None if gap is None else float(gap)
+                    )
+                )
+            elif step is Step.FIRE:
+                taken.append(_mark(event.time, data))
+        if step is Step.TAKE_NEEDLE:
+            needle_from = event.time
+        if step in (Step.STYLET_OUT, Step.GUN_OUT) and open_from is None:
+            open_from = event.time
+        elif step in (Step.STYLET_IN, Step.GUN_IN) and open_from is not None:
+            opened.append((open_from, event.time))
+            open_from = None
+    if open_from is not None:
+        opened.append((open_from, np.inf))
+    begins = any(event.data.get("tool") == Tool.ANAESTHETIC.value for event, _ in steps)
+    if begins and needle_from is None:
+        needle_from = np.inf  # it was never taken
+    before = tuple(one for one in met or () if needle_from is not None and one.time < needle_from)
+    return ProcedureMarks(
+        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before
+    )
+
+
+def begin_data(state: ProcedureState) -> dict[str, object]:
+    """Return the data of the event that an attempt with steps begins with."""
+    return {"version": VERSION, "step": "", "tool": state.tool.value}
+
+
+def _step(event: Event) -> Step | None:
+    with suppress(ValueError):
+        return Step(str(event.data.get("step", "")))
+    return None
+
+
+def _mark(time: float, data: dict[str, Any]) -> SampleMark:
+    return SampleMark(
+        time,
+        float(data["lesion_mm"]),
+        data["is_diagnostic"] is True,
+        tuple(str(hit) for hit in data["hits"]),
+    )
+
+
+def _open_time(opened: Iterable[tuple[float, float]], samples: Samples) -> float:
+    """Return for how long the hub was open with the tip in the body [s]."""
+    spans = np.diff(samples.time, append=samples.time[-1:]) if len(samples.time) else np.empty(0)
+    inside = samples.depth > 0.0
+    total = 0.0
+    for begin, end in opened:
+        total += float(spans[inside & (samples.time >= begin) & (samples.time < end)].sum())
+    return total
+
+
+def _require_place(step: Step, look: Observation | None) -> None:
+    if look is None or not look.pose.measured:
+        raise ProcedureNotPossibleError(
+            sentence(
+                "not done: the needle's depth is not measured now; let both cameras see the marker "
+                "and do it again"
+            )
+        )
+    outside = look.pose.depth <= 0.0
+    if step is Step.TAKE_NEEDLE and not outside:
+        raise ProcedureNotPossibleError(
+            sentence(
+                "the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first",
+                depth=look.pose.depth / MILLIMETRE,
+            )
+        )
+    if step is not Step.TAKE_NEEDLE and outside:
+        raise ProcedureNotPossibleError(sentence("the tip is outside the skin: insert it first"))
+
+
+def _needle(look: Observation | None, placed: PlacedPlan, field: TissueField | None) -> _Needle:
+    if look is None or field is None:
+        raise ProcedureNotPossibleError(
+            sentence("nothing tells which tissue lies where: use tissue: field in the exercise")
+        )
+    bound = BoundField(field, placed.T_world_patient, placed.p_target)
+    shift = look.p_target - placed.p_target
+    shift = np.where(np.isfinite(shift), shift, 0.0)
+    tip = look.pose.p_tip
+    to_patient = placed.T_world_patient.inverse()
+    resting = bound.at_rest(tip[None], shift[None])[0]
+    way = to_patient.rotate(look.pose.tip_axis)
+    tip_mm = to_patient @ resting / MILLIMETRE
+    depth_mm = look.pose.depth / MILLIMETRE
+    way = way / np.linalg.norm(way)
+    entry_mm = to_patient @ (look.pose.p_straight - look.pose.depth * look.pose.axis) / MILLIMETRE
+    target_mm = to_patient @ placed.p_target / MILLIMETRE
+    return _Needle(depth_mm, tip_mm, way, entry_mm, target_mm)
+
+
+def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit:
+    gap = None
+    if field is not None:
+        entry = needle.tip_mm - needle.depth_mm * needle.way
+        membrane = membrane_on(field, entry, needle.way, needle.target_mm)
+        if membrane is not None:
+            gap = membrane.depth_mm - needle.depth_mm
+    return Deposit(time, needle.depth_mm, gap)
+
+
+def _sample(
+    state: ProcedureState,
+    field: TissueField | None,
+    needle: _Needle,
+    throw: int,
+    notch_deg: float,
+    time: float,
+) -> tuple[SampleMark, dict[str, object]]:
+    biopsy = state.part.biopsy
+    if biopsy is None or field is None:
+        raise ProcedureNotPossibleError(sentence("this exercise takes no samples"))
+    if not 0 <= throw < len(biopsy.throws):
+        raise ProcedureNotPossibleError(
+            sentence(
+                "setting {number} of the gun: there are 0 to {most}",
+                number=throw,
+                most=len(biopsy.throws) - 1,
+            )
+        )
+    chosen = biopsy.throw(throw)
+    try:
+        taken = core(field, needle.tip_mm, needle.way, chosen, needle.target_mm, notch_deg)
+    except PlanError as error:
+        raise ProcedureNotPossibleError(str(error)) from error
+    mark = SampleMark(
+        time,
+        taken.lesion_mm,
+        taken.lesion_mm >= biopsy.diagnostic_mm,
+        tuple(hit.sentence for hit in taken.hits),
+    )
+    return mark, {
+        "throw_mm": chosen.throw_mm,
+        "notch_mm": chosen.notch_mm,
+        "notch_deg": notch_deg,
+        "lesion_mm": taken.lesion_mm,
+        "lesion_share": taken.lesion_share,
+        "is_diagnostic": mark.is_diagnostic,
+        "hits": [str(hit) for hit in mark.hits],
+    }
