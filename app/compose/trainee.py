@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 from app.core.parameters import Stage
+from app.core.units import MILLIMETRE
+from app.exercises.procedure import ProcedurePart
 from app.exercises.schema import Exercise
+from app.imaging.field import TissueField
+from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
+from app.session.scripted_steps import sampling_time
 from app.simulation.hands import HANDS, SUFFIX, write_hand_script
+from app.simulation.procedure_script import Stops, with_stops
+from app.simulation.skills import find_skill
 from app.simulation.touching import write_touch_script
-from app.simulation.trainee import script_stage, trainee_stage
+from app.simulation.trainee import script_stage, trainee_stage, write_script
 
 
-def trainee_of(exercise: Exercise, placed: PlacedPlan, skill: str, seed: int) -> Stage:
+def trainee_of(
+    exercise: Exercise,
+    placed: PlacedPlan,
+    skill: str,
+    seed: int,
+    tissues: TissueField | None = None,
+) -> Stage:
     """Build the stage of a trainee who inserts a needle along the path, or touches the targets.
 
     Args:
@@ -20,14 +33,22 @@ def trainee_of(exercise: Exercise, placed: PlacedPlan, skill: str, seed: int) ->
             `simulation.hands.HANDS` for a hand as people have it; at a tool through a trocar both
             are the same, whose times are those of people there.
         seed: another seed is another attempt of the same skill.
+        tissues: field of the patient, by which one knows where pleura or capsule lie.
 
     Raises:
         AcusError: for an unknown skill, or targets that no tip can touch.
     """
     task = exercise.touch_task(placed)
     holds = exercise.holds_breath
+    depth, stops = placed.length, None
+    if exercise.procedure is not None:
+        depth, stops = _stops(exercise.procedure, placed, tissues)
     if task is None and skill in HANDS:
-        script = write_hand_script(placed.axis, placed.length, HANDS[skill], seed, holds)
+        script = write_hand_script(placed.axis, depth, HANDS[skill], seed, holds)
+        script = script if stops is None else with_stops(script, stops)
+        return script_stage(script, placed.axis, holds_at=placed.length if holds else None)
+    if task is None and stops is not None:
+        script = with_stops(write_script(placed.axis, depth, find_skill(skill), seed), stops)
         return script_stage(script, placed.axis, holds_at=placed.length if holds else None)
     if task is None:
         return trainee_stage(placed.axis, placed.length, skill, seed, holds=holds)
@@ -35,3 +56,27 @@ def trainee_of(exercise: Exercise, placed: PlacedPlan, skill: str, seed: int) ->
     touching = skill.removesuffix(SUFFIX) if skill in HANDS else skill
     script = write_touch_script(placed.axis, ways, task.radius, task.dwell, touching, seed)
     return script_stage(script, placed.axis)
+
+
+SHORT_OF = 1.5 * MILLIMETRE
+"""Local anaesthetic is given so far before the membrane, and the way in paused twice so far."""
+
+
+def _stops(
+    part: ProcedurePart, placed: PlacedPlan, tissues: TissueField | None
+) -> tuple[float, Stops]:
+    """Return how deep a trainee brings the needle of an exercise with steps [m], and the stops."""
+    depth = placed.length
+    if part.biopsy is not None:  # the notch's middle shall lie at the target
+        begin, end = part.biopsy.throw(0).notch_span_mm
+        depth -= 0.5 * (begin + end) * MILLIMETRE
+    plan, wall = placed.plan, None
+    if tissues is not None:
+        way = (plan.target_mm - plan.entry_mm) / plan.length_mm
+        membrane = membrane_on(tissues, plan.entry_mm, way, plan.target_mm)
+        wall = None if membrane is None else membrane.depth_mm * MILLIMETRE
+    return depth, Stops(
+        anaesthetic=None if wall is None or part.anaesthetic is None else wall - SHORT_OF,
+        before=None if wall is None else wall - 2.0 * SHORT_OF,
+        sampling=sampling_time(part),
+    )

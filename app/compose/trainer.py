@@ -405,7 +405,7 @@ def loop_table(
     if (simulated or robot is not None) and setup.skill is not None:
         placed = setup.placed
         trainee = (
-            trainee_of(exercise, placed, setup.skill, setup.seed)
+            trainee_of(exercise, placed, setup.skill, setup.seed, setup.tissues)
             if setup.script is None
             else script_stage(setup.script, placed.axis)
         )

@@ -50,15 +50,19 @@ from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Table
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
+from app.scoring.met import Met
+from app.scoring.procedure import ProcedureMarks
 from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
 from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.observation import GRACE
 from app.session.planned import judged_plan_of
+from app.session.procedure import marks_of
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
+from app.session.scripted_steps import steps_of_rows
 from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
 from app.session.transitions import LOST
@@ -228,7 +232,7 @@ class Trials:
             AcusError: for an unknown skill.
         """
         played = named(find_skill(skill).name, self._script)
-        trainee = trainee_of(self._exercise, self._aimed, played, seed)
+        trainee = trainee_of(self._exercise, self._aimed, played, seed, self._tissues)
         rows, begin = self._rows(trainee, seed)
         trial = self._judged(rows, begin, self._exercise.assistance)
         if trial is not None:
@@ -269,11 +273,26 @@ class Trials:
         near = risk_marks_of(samples, self._placed, self._risks)
         felt = self._exercise.tissue is TissueSource.FIELD
         met = tissues_met_of(samples, self._placed, self._tissues, felt)
-        planned = self._planned
         path = trajectory(
-            samples, self._placed, risks=near, touches=went.touches, met=met, planned=planned
+            samples,
+            self._placed,
+            risks=near,
+            touches=went.touches,
+            met=met,
+            planned=self._planned,
+            procedure=self._steps(samples, rows, met),
         )
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
+
+    def _steps(
+        self, samples: Samples, rows: FloatArray, met: tuple[Met, ...] | None
+    ) -> ProcedureMarks | None:
+        part = self._exercise.procedure
+        if part is None:
+            return None
+        phases = rows[:, sv.TRAINEE_PHASE]
+        events = steps_of_rows(part, samples, phases, self._placed, self._tissues)
+        return marks_of(events, samples, met)
 
     def truth(self, rows: FloatArray) -> Samples:
         """Return the needle as it truly was at each look, whatever the cameras saw of it."""

@@ -237,9 +237,10 @@ class SamplePlan:
 def plan_sample(
     field: TissueField, entry_mm: ArrayLike, target_mm: ArrayLike, throw: Throw
 ) -> SamplePlan:
-    """Find the shallowest place of the outer needle from which the notch holds most lesion.
+    """Find the place of the outer needle from which the notch holds most lesion.
 
-    One from which the throw harms nothing goes before all others.
+    Of several the middle one, so that an error to either side costs least; those from which the
+    throw harms nothing go before all others.
 
     Raises:
         PlanError: if nobody labelled a lesion at the target, or the path has no length.
@@ -260,13 +261,12 @@ def plan_sample(
 
     lesion_mm = held(stops)
     good = stops[lesion_mm >= lesion_mm.max() - 0.5 * ALONG_MM]
-    for stop in good.tolist():
-        hits = on_the_throw(field, entry + stop * way, way, throw.throw_mm, target)
-        if not hits:
-            return SamplePlan(throw, stop, float(held(np.array([stop]))[0]), ())
-    stop = float(good[0])
-    hits = on_the_throw(field, entry + stop * way, way, throw.throw_mm, target)
-    return SamplePlan(throw, stop, float(lesion_mm.max()), hits)
+    met = [on_the_throw(field, entry + d * way, way, throw.throw_mm, target) for d in good.tolist()]
+    free = [number for number, hits in enumerate(met) if not hits]
+    of = free or list(range(len(good)))
+    number = of[(len(of) - 1) // 2]
+    stop = float(good[number])
+    return SamplePlan(throw, stop, float(held(np.array([stop]))[0]), met[number])
 
 
 def notch_side(axis: ArrayLike, notch_deg: float) -> FloatArray:

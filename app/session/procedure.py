@@ -155,20 +155,46 @@ class ProcedureState:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class NeedleNow:
+    """The needle at a moment, in world.
+
+    Attributes:
+        p_tip: tip [m], shape (3,).
+        tip_axis: direction in which it goes on, shape (3,).
+        depth: of the tip [m].
+        p_target: target now [m], shape (3,).
+        measured: whether the cameras vouch for it.
+    """
+
+    p_tip: FloatArray
+    tip_axis: FloatArray
+    depth: float
+    p_target: FloatArray
+    measured: bool
+
+    @classmethod
+    def of(cls, look: Observation | None) -> NeedleNow | None:
+        """Return that of an observation; None without one."""
+        if look is None:
+            return None
+        pose = look.pose
+        return cls(pose.p_tip, pose.tip_axis, pose.depth, look.p_target, pose.measured)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class _Needle:
     """The needle where the tissue about it rests, LPS [mm]."""
 
     depth_mm: float
     tip_mm: FloatArray
     way: FloatArray
-    entry_mm: FloatArray
     target_mm: FloatArray
 
 
 def perform(
     state: ProcedureState,
     step: Step,
-    look: Observation | None,
+    look: NeedleNow | None,
     placed: PlacedPlan,
     field: TissueField | None,
     throw: int = 0,
@@ -180,7 +206,7 @@ def perform(
     Args:
         state: as it stands.
         step: what is done.
-        look: newest observation of robot and cameras.
+        look: the needle now; None where nobody has seen it yet.
         placed: the plan, for where the patient lies.
         field: of the patient's tissue.
         throw: which of the gun's settings, for `FIRE`.
@@ -293,27 +319,27 @@ def _open_time(opened: Iterable[tuple[float, float]], samples: Samples) -> float
     return total
 
 
-def _require_place(step: Step, look: Observation | None) -> None:
-    if look is None or not look.pose.measured:
+def _require_place(step: Step, look: NeedleNow | None) -> None:
+    if look is None or not look.measured:
         raise ProcedureNotPossibleError(
             sentence(
                 "not done: the needle's depth is not measured now; let both cameras see the marker "
                 "and do it again"
             )
         )
-    outside = look.pose.depth <= 0.0
+    outside = look.depth <= 0.0
     if step is Step.TAKE_NEEDLE and not outside:
         raise ProcedureNotPossibleError(
             sentence(
                 "the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first",
-                depth=look.pose.depth / MILLIMETRE,
+                depth=look.depth / MILLIMETRE,
             )
         )
     if step is not Step.TAKE_NEEDLE and outside:
         raise ProcedureNotPossibleError(sentence("the tip is outside the skin: insert it first"))
 
 
-def _needle(look: Observation | None, placed: PlacedPlan, field: TissueField | None) -> _Needle:
+def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | None) -> _Needle:
     if look is None or field is None:
         raise ProcedureNotPossibleError(
             sentence("nothing tells which tissue lies where: use tissue: field in the exercise")
@@ -321,16 +347,11 @@ def _needle(look: Observation | None, placed: PlacedPlan, field: TissueField | N
     bound = BoundField(field, placed.T_world_patient, placed.p_target)
     shift = look.p_target - placed.p_target
     shift = np.where(np.isfinite(shift), shift, 0.0)
-    tip = look.pose.p_tip
     to_patient = placed.T_world_patient.inverse()
-    resting = bound.at_rest(tip[None], shift[None])[0]
-    way = to_patient.rotate(look.pose.tip_axis)
-    tip_mm = to_patient @ resting / MILLIMETRE
-    depth_mm = look.pose.depth / MILLIMETRE
-    way = way / np.linalg.norm(way)
-    entry_mm = to_patient @ (look.pose.p_straight - look.pose.depth * look.pose.axis) / MILLIMETRE
+    tip_mm = to_patient @ bound.at_rest(look.p_tip[None], shift[None])[0] / MILLIMETRE
+    way = to_patient.rotate(look.tip_axis)
     target_mm = to_patient @ placed.p_target / MILLIMETRE
-    return _Needle(depth_mm, tip_mm, way, entry_mm, target_mm)
+    return _Needle(look.depth / MILLIMETRE, tip_mm, way / np.linalg.norm(way), target_mm)
 
 
 def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit:

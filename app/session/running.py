@@ -17,7 +17,7 @@ from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
 from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
-from app.session.procedure import ProcedureState, Step
+from app.session.procedure import NeedleNow, ProcedureState, Step
 from app.session.result import AttemptResult
 from app.session.snapshot import DRAWN_LATE
 from app.session.transitions import (
@@ -279,7 +279,7 @@ class RunningAttempt:
                 )
             )
         state, words, data = procedure.perform(
-            state, step, seen, self.log.placed, field, throw, notch_deg, now
+            state, step, NeedleNow.of(seen), self.log.placed, field, throw, notch_deg, now
         )
         self.say(procedure.KIND, words, now, data)
         return state

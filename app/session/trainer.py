@@ -7,6 +7,7 @@ from collections.abc import Callable
 from math import inf
 from typing import TYPE_CHECKING, Final
 
+from app.core import state_vector as sv
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
@@ -36,6 +37,7 @@ from app.session.result import AttemptResult
 from app.session.risks import Risk
 from app.session.running import RunningAttempt
 from app.session.scored import scorer
+from app.session.scripted_steps import ScriptedSteps
 from app.session.snapshot import Snapshot, advice
 from app.session.still_hand import StillHand
 from app.session.ticker import (
@@ -118,6 +120,7 @@ class Trainer:
         self._exercise = exercise
         self._touching = self._to_touch(placed)
         self._procedure: ProcedureState | None = None
+        self._scripted: ScriptedSteps | None = None
         self._dial = exercise.assistance if dial is None else dial
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
@@ -274,6 +277,7 @@ class Trainer:
                 self._running.say(TASK, words, now, data)
             if exercise_part := self._exercise.procedure:
                 self._procedure = ProcedureState.at_begin(exercise_part)
+                self._scripted = ScriptedSteps(exercise_part)
                 data = begin_data(self._procedure)
                 self._running.say(PROCEDURE, self._procedure.words, now, data)
             self.heartbeat()
@@ -604,6 +608,9 @@ class Trainer:
             cause, simulated = self._running.pause_cause, self._withdrawal.simulated
             self._hand.follow(cause, seen.device, seen.pose, simulated)
             self._touch(seen)
+            if self._scripted is not None and seen.device is not None:
+                phase = float(seen.device.row[sv.TRAINEE_PHASE])
+                self._scripted.look(phase, now, self.perform)
             if self._breath is not None and (words := self._breath.observe(seen.device, now)):
                 self._running.say("breath", words, now, {"held": self._breath.now.held})
             reason = reason or self._bring_out(seen)

@@ -1,0 +1,138 @@
+"""The other hand of a scripted trainee: does the procedure's steps where the script stops for them.
+
+The script says by its phase what it stands still for (`simulation.procedure_script`); the steps
+follow each other at a person's pace. Nobody else's hand has these phases.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.bend import Bend
+from app.core.events import Event
+from app.imaging.field import TissueField
+from app.planning.placement import PlacedPlan
+from app.session.errors import ProcedureNotPossibleError
+from app.session.needle import FROM_CAMERAS
+from app.session.procedure import (
+    KIND,
+    NeedleNow,
+    ProcedureState,
+    Step,
+    begin_data,
+    perform,
+)
+from app.simulation.procedure_script import StopPhase
+
+if TYPE_CHECKING:
+    from app.exercises.procedure import ProcedurePart
+    from app.session.samples import Samples
+
+PACE: Final = 1.2
+"""Time from one step to the next [s]: an estimate; none measured was found."""
+
+OF_A_SAMPLE: Final = (Step.STYLET_OUT, Step.GUN_IN, Step.FIRE, Step.GUN_OUT, Step.STYLET_IN)
+SAMPLES: Final = 2
+"""A script takes so many, the notch turned by half between them."""
+
+Perform = Callable[[Step, int, float], ProcedureState]
+
+
+def sampling_time(part: ProcedurePart) -> float:
+    """Return how long a script stays for its samples [s]; 0 where the exercise takes none."""
+    if part.biopsy is None:
+        return 0.0
+    return PACE * (len(OF_A_SAMPLE) * min(SAMPLES, part.biopsy.most_samples) + 2)
+
+
+@dataclass(slots=True)
+class ScriptedSteps:
+    """Does the steps of one attempt.
+
+    Attributes:
+        part: what the exercise asks for.
+        phase: of the script, as it was looked at last.
+    """
+
+    part: ProcedurePart
+    phase: float = 0.0
+    _left: list[tuple[Step, float]] = field(default_factory=list)
+    _next: float = 0.0
+
+    @property
+    def waits(self) -> bool:
+        """Return whether a step is still to be done in this phase."""
+        return bool(self._left)
+
+    def look(self, phase: float, now: float, perform: Perform) -> None:
+        """Do what is due at `now` [s] in a phase of the script; what is refused is left out."""
+        if phase != self.phase:
+            self.phase, self._left = phase, self._of(phase)
+            self._next = now + PACE
+        if not self._left or now < self._next:
+            return
+        step, notch_deg = self._left.pop(0)
+        self._next = now + PACE
+        with suppress(ProcedureNotPossibleError):
+            perform(step, 0, notch_deg)
+
+    def _of(self, phase: float) -> list[tuple[Step, float]]:
+        if phase == StopPhase.INJECT:
+            return [(Step.INJECT, 0.0)]
+        if phase == StopPhase.CHANGE:
+            return [(Step.TAKE_NEEDLE, 0.0)]
+        if phase == StopPhase.SAMPLE and self.part.biopsy is not None:
+            count = min(SAMPLES, self.part.biopsy.most_samples)
+            return [(step, 180.0 * (n % 2)) for n in range(count) for step in OF_A_SAMPLE]
+        return []
+
+
+def steps_of_rows(
+    part: ProcedurePart,
+    samples: Samples,
+    phases: FloatArray,
+    placed: PlacedPlan,
+    field: TissueField | None,
+) -> tuple[Event, ...]:
+    """Do the steps of a script at the samples of an attempt that ran without a trainer.
+
+    Args:
+        part: what the exercise asks for.
+        samples: of the attempt.
+        phases: of the script at each sample, shape (n,).
+        placed: the plan.
+        field: of the patient's tissue.
+    """
+    state, steps, events = ProcedureState.at_begin(part), ScriptedSteps(part), list[Event]()
+    seen = np.isin(samples.depth_source, FROM_CAMERAS) & samples.valid
+    events.append(Event(float(samples.time[0]), KIND, state.words, begin_data(state)))
+    for row, phase in enumerate(phases.tolist()):
+        if phase == steps.phase and not steps.waits:
+            continue
+        bend = None if samples.bend is None else Bend.of_numbers(samples.bend[row])
+        axis, depth = samples.axis[row], float(samples.depth[row])
+        needle = NeedleNow(
+            samples.tip[row],
+            axis if bend is None else axis + bend.slope_at(depth),
+            depth,
+            samples.target[row],
+            bool(seen[row]),
+        )
+        time = float(samples.time[row])
+
+        def act(
+            step: Step, throw: int, deg: float, needle: NeedleNow = needle, time: float = time
+        ) -> ProcedureState:
+            nonlocal state
+            state, words, data = perform(state, step, needle, placed, field, throw, deg, time)
+            events.append(Event(time, KIND, words, data))
+            return state
+
+        steps.look(phase, time, act)
+    return tuple(events)
