@@ -22,6 +22,7 @@ from app.session.display_load import BusyWatch, WorldPace
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
 from app.session.pad.readings import hand_pose, needle_line
+from app.session.procedure import Step
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
@@ -164,6 +165,8 @@ class ExerciseDisplay:
         views.panel.rail.breath.show_snapshot(snapshot)
         views.panel.bevel.show_roll(snapshot.roll, commands)
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
+        inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
+        views.panel.procedure.show_procedure(snapshot.procedure, commands, inside)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, snapshot.ready, hidden
@@ -517,6 +520,16 @@ class ExerciseController(QObject):
         if self._run is not None:
             self._run.trainer.roll(step)
 
+    def perform(self, step: Step, throw: int, notch_deg: float) -> None:
+        """Do a step of the exercise's procedure."""
+        if self._run is not None:
+            try:
+                self._run.trainer.perform(step, throw, notch_deg)
+            except AcusError as error:
+                self._fail(translated(error))
+                return
+            self.worked.emit()
+
     def scan(self) -> None:
         """Take a control scan: the slices that are set, where scans guide; else about the tip."""
         run = self._run
@@ -609,6 +622,7 @@ class ExerciseController(QObject):
         panel.enable.held.connect(self.set_held)
         panel.withdrawal.confirmed.connect(self.confirm_outside)
         panel.breath.asked.connect(self.hold_breath)
+        panel.procedure.asked.connect(self.perform)
         self._views.bullseye.pad.rolled.connect(self.roll)
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)

@@ -32,6 +32,7 @@ from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
+from app.views.exercise.procedure_panel import ProcedurePanel
 from app.views.exercise.readouts import AttemptReadouts
 from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.stages import Steps
@@ -370,7 +371,7 @@ class AttemptTools(QWidget):
     """What is pressed and answered in an attempt: beside the rest of the panel, or in the rail.
 
     Attributes:
-        buttons, withdrawal, enable, breath, bevel, touch, scan: from the top.
+        buttons, withdrawal, enable, breath, bevel, touch, procedure, scan: from the top.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -382,6 +383,7 @@ class AttemptTools(QWidget):
         self.bevel = BevelNote(self)
         self.bevel.hide()
         self.touch = TouchNote(self)
+        self.procedure = ProcedurePanel(self)
         self.scan = ScanPanel(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -393,6 +395,7 @@ class AttemptTools(QWidget):
             self.breath,
             self.bevel,
             self.touch,
+            self.procedure,
             self.scan,
         ):
             column.addWidget(widget)
@@ -446,7 +449,7 @@ class ExercisePanel(QWidget):
         tools = self.tools
         self.buttons, self.withdrawal, self.enable = tools.buttons, tools.withdrawal, tools.enable
         self.breath, self.bevel, self.touch = tools.breath, tools.bevel, tools.touch
-        self.scan = tools.scan
+        self.procedure, self.scan = tools.procedure, tools.scan
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -481,6 +484,7 @@ class ExercisePanel(QWidget):
         """Let the attempt's keys work wherever `page` is shown, whichever panel is in front."""
         self.buttons.listen(page)
         self.breath.listen(page)
+        self.procedure.listen(page)
 
     def set_exercises(
         self, exercises: Sequence[tuple[str, str]], chosen: str | None = None
@@ -588,6 +592,7 @@ class ExercisePanel(QWidget):
         self.scan.forget()
         self.breath.show_breath(None, False)
         self.touch.hide()
+        self.procedure.show_procedure(None, False)
         self.energy.show_energy(None)
 
     def set_waiting(self, reason: str) -> None:

@@ -87,6 +87,7 @@ def groups(
                     "; ".join((tr("briefing; an expert shows it"), *watched.values())),
                 ),
                 ("S", tr("control scan")),
+                ("J, Ctrl+J", tr("procedure: next step; fire the biopsy gun")),
                 (tr("Enter"), tr("end the attempt")),
                 ("Ctrl+B, Ctrl+T", tr("in an attempt: all panels; live pictures or the scan")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),

@@ -202,7 +202,7 @@ SLICER = Scheme(
 SCHEMES = {scheme.name: scheme for scheme in (OHIF, SLICER)}
 """The schemes to choose from, the default first."""
 
-RESERVED = ("A", "H", "S", "E", "T")
+RESERVED = ("A", "H", "J", "S", "E", "T")
 """Keys of an attempt and of the plan, which no scheme may use in a slice."""
 
 

@@ -1,0 +1,215 @@
+"""The steps of a procedure beside the needle: what is held, what can be done, what came of it."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QComboBox, QGridLayout, QPushButton, QVBoxLayout, QWidget
+
+from app.scoring.procedure import SampleMark
+from app.session.procedure import ProcedureState, Step
+from app.views.kit import theme
+from app.views.kit.parts import FittingButton, PlainLabel
+from app.views.kit.text import literal, number, tr, translated
+
+NEXT: Final = (
+    Step.INJECT,
+    Step.TAKE_NEEDLE,
+    Step.STYLET_OUT,
+    Step.GUN_IN,
+    Step.GUN_OUT,
+    Step.STYLET_IN,
+)
+"""What the key of the next step does, the first of these that can be done; the gun has its own."""
+
+CLOCK: Final = (0.0, 90.0, 180.0, 270.0)
+"""Directions of the notch, clockwise as seen from the hub."""
+
+
+class ProcedurePanel(QWidget):
+    """Offers the steps that can follow; hidden where the exercise has none.
+
+    Signals:
+        asked(Step, int, float): do this, by this setting of the gun, the notch turned so [°].
+    """
+
+    asked = Signal(object, int, float)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._state: ProcedureState | None = None
+        self._step: Step | None = None
+        self._shown: tuple[ProcedureState | None, bool, bool] = None, False, False
+        self.held, self.results = PlainLabel(self), PlainLabel(self)
+        self.next, self.fire = _button(), _button()
+        self.throw, self.notch = QComboBox(self), QComboBox(self)
+        self._keys: list[tuple[QShortcut, QPushButton]] = []
+        self._prepare()
+        self._lay_out()
+        self.hide()
+
+    def listen(self, page: QWidget) -> None:
+        """Let the keys work wherever `page` is shown."""
+        for shortcut, _ in self._keys:
+            shortcut.setParent(page)
+
+    def show_procedure(
+        self, state: ProcedureState | None, commands: bool, inside: bool = False
+    ) -> None:
+        """Show how an attempt stands with its steps, or nothing.
+
+        Args:
+            state: how it stands; None without steps.
+            commands: whether steps can be done now.
+            inside: whether the tip is in the body.
+        """
+        self.setVisible(state is not None)
+        now = state, commands, inside
+        if state is not None and now != self._shown:
+            if self._state is None or state.part is not self._state.part:
+                self._offer_settings(state)
+            self._state, self._shown = state, now
+            self._show(state, commands, inside)
+        elif state is None:
+            self._state, self._shown = None, (None, False, False)
+            self._enable(set())
+
+    def _offer_settings(self, state: ProcedureState) -> None:
+        biopsy = state.part.biopsy
+        with QSignalBlocker(self.throw):
+            self.throw.clear()
+            for part in () if biopsy is None else biopsy.throws:
+                words = tr(
+                    "{throw} mm, notch {notch} mm",
+                    throw=number(part.throw_mm, "g"),
+                    notch=number(part.notch_mm, "g"),
+                )
+                self.throw.addItem(words)
+        for widget in (self.throw, self.notch, self.fire, self._throw_title, self._notch_title):
+            widget.setVisible(biopsy is not None)
+
+    def _show(self, state: ProcedureState, commands: bool, inside: bool) -> None:
+        self.held.setText(tr("Held: {tool}", tool=translated(state.words)))
+        possible = set(state.possible) if commands else set()
+        # After its throw the gun comes out; after a sample the stylet goes back before the next.
+        possible.discard(Step.INJECT if not inside else Step.TAKE_NEEDLE)
+        order = [step for step in NEXT if step in possible]
+        if Step.GUN_IN in order and Step.STYLET_IN in order and self._step is Step.GUN_OUT:
+            order.remove(Step.GUN_IN)
+        self._step = order[0] if order else self._step
+        self.next.setText(_words(self._step) if order else tr("Next step (J)"))
+        self.next.setVisible(bool(order) or state.part.biopsy is not None)
+        self._enable(possible, bool(order))
+        self.results.setText("\n".join(_results(state)))
+        self.results.setVisible(bool(self.results.text()))
+
+    def _enable(self, possible: set[Step], has_next: bool = False) -> None:
+        self.next.setEnabled(has_next)
+        self.fire.setEnabled(Step.FIRE in possible)
+        for shortcut, button in self._keys:
+            shortcut.setEnabled(button.isEnabled())
+
+    def _ask(self, step: Step | None) -> None:
+        if step is not None:
+            number_of, turned = max(0, self.throw.currentIndex()), self.notch.currentData()
+            self.asked.emit(step, number_of, float(turned))
+
+    def _prepare(self) -> None:
+        self.held.setWordWrap(True)
+        self.results.setWordWrap(True)
+        self.next.clicked.connect(lambda: self._ask(self._step))
+        self.fire.clicked.connect(lambda: self._ask(Step.FIRE))
+        self.fire.setText(tr("Fire the gun (Ctrl+J)"))
+        self.fire.setToolTip(
+            literal(tr("The gun's needle runs ahead by its throw and brings back a core"))
+        )
+        self.next.setToolTip(literal(tr("What follows in the usual order")))
+        self.throw.setToolTip(tr("How far the gun's needle runs ahead of the outer needle's tip"))
+        self.notch.setToolTip(
+            tr("To which side the notch is open, as on a clock seen from the hub: 12 is the front")
+        )
+        self.throw.setAccessibleName(tr("Throw"))
+        self.notch.setAccessibleName(tr("Notch"))
+        for hour, turned in zip((12, 3, 6, 9), CLOCK, strict=True):
+            self.notch.addItem(tr("{hour} o'clock", hour=hour), turned)
+        for box in (self.throw, self.notch):
+            box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        for key, button in (
+            ("J", self.next),
+            ("Ctrl+J", self.fire),
+        ):
+            shortcut = QShortcut(QKeySequence(key), self)
+            shortcut.setAutoRepeat(False)
+            shortcut.activated.connect(button.click)
+            self._keys.append((shortcut, button))
+        self._enable(set())
+
+    def _lay_out(self) -> None:
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        title = PlainLabel(tr("Procedure"), self)
+        title.setProperty("role", "heading")
+        grid = QGridLayout()
+        grid.setContentsMargins(0, 0, 0, 0)
+        self._throw_title = PlainLabel(tr("Throw"), self)
+        self._notch_title = PlainLabel(tr("Notch"), self)
+        for row, (words, box) in enumerate(
+            ((self._throw_title, self.throw), (self._notch_title, self.notch))
+        ):
+            grid.addWidget(words, row, 0)
+            grid.addWidget(box, row, 1)
+        grid.setColumnStretch(1, 1)
+        for widget in (title, self.held, self.next):
+            column.addWidget(widget)
+        column.addLayout(grid)
+        for widget in (self.fire, self.results):
+            column.addWidget(widget)
+
+
+def _words(step: Step | None) -> str:
+    return {
+        Step.INJECT: tr("Give local anaesthetic (J)"),
+        Step.TAKE_NEEDLE: tr("Take the outer needle (J)"),
+        Step.STYLET_OUT: tr("Stylet out (J)"),
+        Step.GUN_IN: tr("Gun in (J)"),
+        Step.GUN_OUT: tr("Gun out (J)"),
+        Step.STYLET_IN: tr("Stylet in (J)"),
+    }.get(step or Step.FIRE, tr("Next step (J)"))
+
+
+def _results(state: ProcedureState) -> list[str]:
+    """Say what was given and taken, a line each."""
+    lines = []
+    if state.deposits:
+        lines.append(tr("Local anaesthetic: {n} times", n=state.deposits))
+    biopsy = state.part.biopsy
+    least = 0.0 if biopsy is None else biopsy.diagnostic_mm
+    for count, sample in enumerate(state.samples, start=1):
+        lines.append(_sample_words(count, sample, least))
+    return lines
+
+
+def _sample_words(count: int, sample: SampleMark, least_mm: float) -> str:
+    words = (
+        tr("✔ Sample {n}: {mm:.1f} mm of lesion, sufficient", n=count, mm=sample.lesion_mm)
+        if sample.is_diagnostic
+        else tr(
+            "✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed",
+            n=count,
+            mm=sample.lesion_mm,
+            least=least_mm,
+        )
+    )
+    hits = "".join(f"\n▲ {translated(hit)}" for hit in sample.hits)
+    return words + hits
+
+
+def _button() -> QPushButton:
+    button = FittingButton("")
+    # A button that keeps the focus would swallow the pad's keys.
+    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+    button.setMinimumHeight(theme.CONTROL_HEIGHT)
+    return button
