@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from math import isfinite
 
 from app.core.messages import sentence
+from app.imaging.field.tissue_field import TissueKind
 from app.scoring.errors import TrajectoryError
-from app.scoring.met import Met
+from app.scoring.met import BY_TIP, Met
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,7 @@ class SampleMark:
         lesion_mm: length of lesion in the core.
         is_diagnostic: whether that suffices, by the exercise.
         hits: what the throw met and should not have, in words.
+        aside_mm: distance of the core's middle line from the lesion's target; None if not known.
 
     Raises:
         TrajectoryError: if a number is not finite.
@@ -50,9 +52,10 @@ class SampleMark:
     lesion_mm: float
     is_diagnostic: bool
     hits: tuple[str, ...] = ()
+    aside_mm: float | None = None
 
     def __post_init__(self) -> None:
-        _check(self.time, self.lesion_mm)
+        _check(self.time, self.lesion_mm, self.aside_mm or 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +76,15 @@ class ProcedureMarks:
     open_s: float = 0.0
     needle_from: float | None = None
     met_before: tuple[Met, ...] = ()
+
+    @property
+    def pierced(self) -> tuple[Met, ...]:
+        """Return where the needle for local anaesthetic went through pleura or capsule."""
+        return tuple(
+            one
+            for one in self.met_before
+            if one.by == BY_TIP and one.counts and (one.kind == TissueKind.LUNG or one.holds_target)
+        )
 
 
 def _check(*numbers: float) -> None:

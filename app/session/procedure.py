@@ -23,7 +23,7 @@ from app.imaging.field.tissue_field import TissueField
 from app.planning.errors import PlanError
 from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
-from app.planning.sampling import core
+from app.planning.sampling import AtRest, core
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
 from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
@@ -183,12 +183,20 @@ class NeedleNow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Needle:
-    """The needle where the tissue about it rests, LPS [mm]."""
+    """The needle in the patient, LPS [mm], and where the tissue about it rests."""
 
     depth_mm: float
     tip_mm: FloatArray
     way: FloatArray
     target_mm: FloatArray
+    target_now_mm: FloatArray
+    at_rest: AtRest
+
+    @property
+    def aside_mm(self) -> float:
+        """Return how far beside the target, where the breath has it, the line passes."""
+        away = self.target_now_mm - self.tip_mm
+        return float(np.linalg.norm(away - float(away @ self.way) * self.way))
 
 
 def perform(
@@ -306,6 +314,7 @@ def _mark(time: float, data: dict[str, Any]) -> SampleMark:
         float(data["lesion_mm"]),
         data["is_diagnostic"] is True,
         tuple(str(hit) for hit in data["hits"]),
+        float(data["aside_mm"]) if "aside_mm" in data else None,
     )
 
 
@@ -347,11 +356,22 @@ def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | Non
     bound = BoundField(field, placed.T_world_patient, placed.p_target)
     shift = look.p_target - placed.p_target
     shift = np.where(np.isfinite(shift), shift, 0.0)
-    to_patient = placed.T_world_patient.inverse()
-    tip_mm = to_patient @ bound.at_rest(look.p_tip[None], shift[None])[0] / MILLIMETRE
+    to_world, to_patient = placed.T_world_patient, placed.T_world_patient.inverse()
+
+    def at_rest(places_mm: FloatArray) -> FloatArray:
+        p_world = np.asarray(to_world @ (places_mm * MILLIMETRE))
+        resting = bound.at_rest(p_world, np.broadcast_to(shift, p_world.shape))
+        return np.asarray(to_patient @ resting / MILLIMETRE)
+
     way = to_patient.rotate(look.tip_axis)
-    target_mm = to_patient @ placed.p_target / MILLIMETRE
-    return _Needle(look.depth / MILLIMETRE, tip_mm, way / np.linalg.norm(way), target_mm)
+    return _Needle(
+        look.depth / MILLIMETRE,
+        to_patient @ look.p_tip / MILLIMETRE,
+        way / np.linalg.norm(way),
+        to_patient @ placed.p_target / MILLIMETRE,
+        to_patient @ (placed.p_target + shift) / MILLIMETRE,
+        at_rest,
+    )
 
 
 def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit:
@@ -378,14 +398,22 @@ def _sample(
     if not 0 <= throw < len(biopsy.throws):
         raise ProcedureNotPossibleError(
             sentence(
-                "setting {number} of the gun: there are 0 to {most}",
-                number=throw,
+                "setting {setting} of the gun: there are 0 to {most}",
+                setting=throw,
                 most=len(biopsy.throws) - 1,
             )
         )
     chosen = biopsy.throw(throw)
     try:
-        taken = core(field, needle.tip_mm, needle.way, chosen, needle.target_mm, notch_deg)
+        taken = core(
+            field,
+            needle.tip_mm,
+            needle.way,
+            chosen,
+            needle.target_mm,
+            notch_deg,
+            needle.at_rest,
+        )
     except PlanError as error:
         raise ProcedureNotPossibleError(str(error)) from error
     mark = SampleMark(
@@ -393,6 +421,7 @@ def _sample(
         taken.lesion_mm,
         taken.lesion_mm >= biopsy.diagnostic_mm,
         tuple(hit.sentence for hit in taken.hits),
+        needle.aside_mm,
     )
     return mark, {
         "throw_mm": chosen.throw_mm,
@@ -400,6 +429,7 @@ def _sample(
         "notch_deg": notch_deg,
         "lesion_mm": taken.lesion_mm,
         "lesion_share": taken.lesion_share,
+        "aside_mm": needle.aside_mm,
         "is_diagnostic": mark.is_diagnostic,
         "hits": [str(hit) for hit in mark.hits],
     }

@@ -40,6 +40,7 @@ from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
 from app.session.planned import judged_plan
+from app.session.procedure import marks_of
 from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import Recording
 from app.session.result import AttemptResult
@@ -67,7 +68,7 @@ __all__ = [
     "spans",
 ]
 
-SHOWN_EVENTS: Final = ("scan", "touch", "breath", "fault", "abort")
+SHOWN_EVENTS: Final = ("scan", "touch", "breath", "procedure", "fault", "abort")
 """Kinds of events that are marked on the curves."""
 
 TURN_S: Final = 2.0
@@ -327,6 +328,7 @@ def review(recording: Recording) -> Review:
         met=tissues_met(recording.events) or (),
         risks=risk_marks(recording.events),
         planned=judged_plan(recording.events),
+        steps=marks_of(recording.events, samples, tissues_met(recording.events)),
         scans=tuple(event.time for event in recording.events if event.kind == "scan"),
         depth_error_mm=None if deep is None else deep.value,
         depth_sd_mm=0.0 if deep is None else deep.sd or 0.0,

@@ -166,7 +166,8 @@ class ExerciseDisplay:
         views.panel.bevel.show_roll(snapshot.roll, commands)
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
-        views.panel.procedure.show_procedure(snapshot.procedure, commands, inside)
+        acts = commands and snapshot.state not in (State.WITHDRAWING, State.PAUSED)
+        views.panel.procedure.show_procedure(snapshot.procedure, acts, inside)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, snapshot.ready, hidden

@@ -371,7 +371,7 @@ class AttemptTools(QWidget):
     """What is pressed and answered in an attempt: beside the rest of the panel, or in the rail.
 
     Attributes:
-        buttons, withdrawal, enable, breath, bevel, touch, procedure, scan: from the top.
+        procedure, buttons, withdrawal, enable, breath, bevel, touch, scan: what stands there.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -390,12 +390,12 @@ class AttemptTools(QWidget):
         column.setSpacing(theme.SPACING - 2)
         for widget in (
             self.withdrawal,
+            self.procedure,
             self.buttons,
             self.enable,
             self.breath,
             self.bevel,
             self.touch,
-            self.procedure,
             self.scan,
         ):
             column.addWidget(widget)
@@ -404,6 +404,7 @@ class AttemptTools(QWidget):
         """Suit a rail, or a panel of the usual width."""
         self.buttons.set_narrow(narrow)
         self.breath.set_narrow(narrow)
+        self.procedure.set_narrow(narrow)
         self.scan.set_narrow(narrow)
         self.bevel.setWordWrap(narrow)
 
