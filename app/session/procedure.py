@@ -23,7 +23,8 @@ from app.imaging.field.tissue_field import TissueField
 from app.planning.errors import PlanError
 from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
-from app.planning.sampling import AtRest, core
+from app.planning.plan import Plan
+from app.planning.sampling import AtRest, SamplePlan, core, plan_sample
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
 from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
@@ -113,17 +114,30 @@ class ProcedureState:
         tool: what the shaft stands for now.
         deposits: how often local anaesthetic was given.
         samples: what each sample was, in order.
+        plans: where to stop for each setting of the gun by the planned path, and what its throw
+            would run into there; empty where nothing can tell.
     """
 
     part: ProcedurePart
     tool: Tool
     deposits: int = 0
     samples: tuple[SampleMark, ...] = ()
+    plans: tuple[SamplePlan, ...] = ()
 
     @classmethod
-    def at_begin(cls, part: ProcedurePart) -> ProcedureState:
-        """Return the state with which an attempt begins."""
-        return cls(part, Tool.STYLET if part.anaesthetic is None else Tool.ANAESTHETIC)
+    def at_begin(
+        cls, part: ProcedurePart, plan: Plan | None = None, field: TissueField | None = None
+    ) -> ProcedureState:
+        """Return the state with which an attempt begins, on a planned path in a field."""
+        plans: tuple[SamplePlan, ...] = ()
+        if part.biopsy is not None and plan is not None and field is not None:
+            throws = [part.biopsy.throw(number) for number in range(len(part.biopsy.throws))]
+            with suppress(PlanError):  # firing says why
+                plans = tuple(
+                    plan_sample(field, plan.entry_mm, plan.target_mm, throw) for throw in throws
+                )
+        tool = Tool.STYLET if part.anaesthetic is None else Tool.ANAESTHETIC
+        return cls(part, tool, plans=plans)
 
     @property
     def words(self) -> str:
@@ -297,9 +311,28 @@ def marks_of(
     )
 
 
+def shown_events(events: Iterable[Event]) -> tuple[Event, ...]:
+    """Leave out the steps that a time axis has no room for: those without tissue."""
+    shown = (Step.INJECT.value, Step.FIRE.value)
+    return tuple(one for one in events if one.kind != KIND or one.data.get("step") in shown)
+
+
 def begin_data(state: ProcedureState) -> dict[str, object]:
     """Return the data of the event that an attempt with steps begins with."""
-    return {"version": VERSION, "step": "", "tool": state.tool.value}
+    return {
+        "version": VERSION,
+        "step": "",
+        "tool": state.tool.value,
+        "plans": [
+            {
+                "throw_mm": plan.throw.throw_mm,
+                "stop_mm": plan.stop_mm,
+                "lesion_mm": plan.lesion_mm,
+                "hits": [str(hit.sentence) for hit in plan.hits],
+            }
+            for plan in state.plans
+        ],
+    }
 
 
 def _step(event: Event) -> Step | None:

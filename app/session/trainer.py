@@ -276,7 +276,9 @@ class Trainer:
                 words, data = begin_words(self._touching.state)
                 self._running.say(TASK, words, now, data)
             if exercise_part := self._exercise.procedure:
-                self._procedure = ProcedureState.at_begin(exercise_part)
+                self._procedure = ProcedureState.at_begin(
+                    exercise_part, self._placed.plan, self._tissues
+                )
                 self._scripted = ScriptedSteps(exercise_part)
                 data = begin_data(self._procedure)
                 self._running.say(PROCEDURE, self._procedure.words, now, data)

@@ -106,8 +106,26 @@ class ProcedurePanel(QWidget):
         self.next.setText(_words(self._step) if order else tr("Next step (J)"))
         self.next.setVisible(bool(order) or state.part.biopsy is not None)
         self._enable(possible, bool(order))
-        self.results.setText("\n".join(_results(state)))
+        self.results.setText("\n".join((*self._warnings(state), *_results(state))))
         self.results.setVisible(bool(self.results.text()))
+
+    def _show_again(self) -> None:
+        state, commands, inside = self._shown
+        if state is not None:
+            self._show(state, commands, inside)
+
+    def _warnings(self, state: ProcedureState) -> list[str]:
+        """Say what the chosen throw would run into by the plan, and where to stop for it."""
+        number_of = self.throw.currentIndex()
+        if state.samples or not 0 <= number_of < len(state.plans):
+            return []
+        plan = state.plans[number_of]
+        words = tr(
+            "By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion",
+            depth=plan.stop_mm,
+            mm=plan.lesion_mm,
+        )
+        return [words, *(f"▲ {translated(hit.sentence)}" for hit in plan.hits)]
 
     def _enable(self, possible: set[Step], has_next: bool = False) -> None:
         self.next.setEnabled(has_next)
@@ -131,6 +149,7 @@ class ProcedurePanel(QWidget):
         )
         self.next.setToolTip(literal(tr("What follows in the usual order")))
         self.throw.setToolTip(tr("How far the gun's needle runs ahead of the outer needle's tip"))
+        self.throw.currentIndexChanged.connect(lambda _: self._show_again())
         self.notch.setToolTip(
             tr("To which side the notch is open, as on a clock seen from the hub: 12 is the front")
         )
