@@ -100,6 +100,7 @@ EXAMPLES = {
     "camera latency": (),
     "camera list": (),
     "camera use": ("--left", "simulated", "--right", "simulated"),
+    "course plans": (),
     "check": ("--last",),
     "device list": (),
     "exercise list": (),
