@@ -32,6 +32,7 @@ EXERCISE = SimpleNamespace(
     drill=None,
     is_own_plan=False,
     procedure=None,
+    asks_lung_path=False,
     bands={},
     bands_for=lambda hand: None,
     tolerances_for=lambda hand: DEFAULT_TOLERANCES,
