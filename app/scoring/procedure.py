@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from app.core.messages import sentence
+from app.scoring.complications.marks import ComplicationMarks
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
 
@@ -66,6 +67,7 @@ class ProcedureMarks:
         needle_from: moment from which the needle of the exercise itself was held [s]; None where it
             was from the beginning.
         met_before: what the needle for local anaesthetic met.
+        complications: that happened, and what was done about them; None where none can.
     """
 
     deposits: tuple[Deposit, ...] = ()
@@ -73,6 +75,7 @@ class ProcedureMarks:
     open_s: float = 0.0
     needle_from: float | None = None
     met_before: tuple[Met, ...] = ()
+    complications: ComplicationMarks | None = None
 
 
 def _check(*numbers: float) -> None:
