@@ -15,7 +15,7 @@ from typing import Final
 from app.core.messages import sentence
 
 KSTR: Final = "Yoon et al. 2020, guideline of the Korean Society of Thoracic Radiology, PMC7817630"
-REVIEW: Final = "Huang et al. 2021, review of management, PMC8001193"
+REVIEW: Final = "review of pneumothorax after needle biopsy of the lung, 2021, PMC8001193"
 CHAN: Final = "Chan et al. 2023, 102 aspirations, PMC10392636"
 TAI: Final = "Tai et al. 2016, Radiology 279:287: grades of haemorrhage"
 

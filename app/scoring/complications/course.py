@@ -42,7 +42,7 @@ SMALL_SHARES: Final = (0.04, 0.16)
 """Largest size of a pneumothorax that needs no drain, as share of the hemithorax by volume, from
 the smallest lot to the largest: a teaching estimate. So are all that follow."""
 
-LARGE_SHARES: Final = (0.35, 0.65)
+LARGE_SHARES: Final = (0.42, 0.70)
 DELAY_S: Final = (5.0, 40.0)
 SMALL_TIME_S, LARGE_TIME_S = 40.0, 70.0
 """Time in which 63 % of the size is reached."""
@@ -70,7 +70,7 @@ RESTING_SATURATION, RESTING_PULSE = 97.0, 76.0
 FELT_SHARE: Final = 0.12
 """A smaller pneumothorax costs no saturation."""
 
-FALL: Final = 28.0
+FALL: Final = 14.0
 """Saturation lost for each further whole hemithorax [%], and beats gained [1/min]; twice the loss
 with emphysema."""
 
