@@ -1,9 +1,9 @@
 """Answers to a complication, and which is right by its size and the patient's symptoms.
 
 The table follows what guideline and reviews say in words; its limits in millimetres are those at
-which they change their advice. A small pneumothorax without symptoms is watched, and the biopsy goes
-on through the outer needle; a larger one is aspirated with the needle drawn back into the pleural
-space; a large or symptomatic one, or one that comes back, is drained.
+which they change their advice. A small pneumothorax without symptoms is watched, and the biopsy
+goes on through the outer needle; a larger one is aspirated with the needle drawn back into the
+pleural space; a large or symptomatic one, or one that comes back, is drained.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ DRAINED: Final = DRAIN_PERCENT / PNEUMOTHORAX_PERCENT
 
 BLEEDS: Final = BLED_PERCENT / 100.0
 """Share of biopsies with blood in the lung; of those, of a higher grade, and with blood coughed up
-(Zhu 2020: 31.4, 7.0 and 3.0 %; that only who bleeds into the lung coughs blood is an assumption)."""
+(Zhu 2020: 31.4, 7.0, 3.0 %; that only who bleeds into the lung coughs blood is an assumption)."""
 
 HIGHER: Final = BLED_MORE_PERCENT / BLED_PERCENT
 COUGHS_BLOOD: Final = COUGHED_PERCENT / BLED_PERCENT
@@ -251,5 +251,3 @@ def vitals(
         coughs or coughs_blood,
         coughs_blood,
     )
-
-

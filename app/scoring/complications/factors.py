@@ -121,7 +121,9 @@ class CaseMix:
                 )
         if not isclose(sum(self.lying), 1.0, abs_tol=1e-9):
             raise ScoringError(
-                sentence("the shares of positions add up to {total:g}, not 1", total=sum(self.lying))
+                sentence(
+                    "the shares of positions add up to {total:g}, not 1", total=sum(self.lying)
+                )
             )
 
 

@@ -87,7 +87,8 @@ class ComplicationMarks:
 
     def __post_init__(self) -> None:
         numbers = [self.until, *self.noticed, *(time for _, time in self.begun)]
-        numbers += [one.time for one in (*self.demands, *self.given)]
+        numbers += [demand.time for demand in self.demands]
+        numbers += [given.time for given in self.given]
         numbers += [value for time, place in self.shown for value in (time, *place)]
         if not all(map(isfinite, numbers)):
             raise TrajectoryError(sentence("a complication of the attempt: a number is not finite"))

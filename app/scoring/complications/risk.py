@@ -1,4 +1,4 @@
-"""The odds of a pneumothorax as a logistic model that gives the published odds ratios in a case mix.
+"""Odds of a pneumothorax: a logistic model that gives the published odds ratios in a case mix.
 
 What is published are crude odds ratios: of patients with a factor against those without, whatever
 else they have. The coefficient of a factor in a model of them all is another number: odds ratios
