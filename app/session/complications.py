@@ -267,7 +267,7 @@ class Complications:
 
     def answer(self, answer: Answer) -> Happening:
         """Answer what there is, or nothing."""
-        row, verdict = self._judge(answer)
+        row, verdict, kinds = self._judge(answer)
         share, rim_mm = self.share, self.rim_mm
         words = sentence(
             "{answer}: {verdict}", answer=ANSWER_WORDS[answer], verdict=VERDICT_WORDS[verdict]
@@ -286,7 +286,7 @@ class Complications:
             told=True,
             answer=answer.value,
             verdict=verdict.value,
-            kind="" if row is None else row.kind.value,
+            kinds=[kind.value for kind in kinds],
             row="" if row is None else row.name,
             source="" if row is None else row.source,
             share=share,
@@ -423,14 +423,27 @@ class Complications:
         return found
 
     # --- what is done about it --------------------------------------------------------------------
-    def _judge(self, answer: Answer) -> tuple[Row | None, Verdict]:
-        """Return the row that an answer is best for, and what it is worth; the worst row first."""
-        worst = sorted(self.rows, key=lambda row: -row.severity)
-        if not worst:
-            return None, Verdict.NOTHING_THERE
-        order = list(Verdict)
+    def _judge(self, answer: Answer) -> tuple[Row | None, Verdict, list[Kind]]:
+        """Return the row that an answer is judged by, what it is worth, and what it answers.
+
+        It is judged by the worst of what there is. What is not wrong there answers all else too
+        for which it is right.
+        """
+        rows = self.rows
+        if not rows:
+            return None, Verdict.NOTHING_THERE, []
+        order, most = list(Verdict), max(row.severity for row in rows)
+        worst = [row for row in rows if row.severity == most]
         row = min(worst, key=lambda one: order.index(one.verdict(answer)))
-        return row, row.verdict(answer)
+        verdict = row.verdict(answer)
+        others = [
+            one.kind
+            for one in rows
+            if one is not row
+            and verdict is not Verdict.WRONG
+            and one.verdict(answer) is Verdict.RIGHT
+        ]
+        return row, verdict, [row.kind, *others]
 
     def _act(self, answer: Answer) -> None:
         leak, now = self._leak, self._clock
@@ -491,14 +504,24 @@ def marks_of_complications(
             elif data["step"] == "notice":
                 noticed.append(event.time)
             elif data["step"] == "answer":
-                kind = Kind(data["kind"]) if data["kind"] else None
-                given.append(Given(event.time, str(data["answer"]), Verdict(data["verdict"]), kind))
+                given += _given(event.time, data)
                 noticed.append(event.time)
     with suppress(TrajectoryError):
         return ComplicationMarks(
             tuple(begun), tuple(demands), tuple(noticed), tuple(given), tuple(shown), until
         )
     return ComplicationMarks(until=until if np.isfinite(until) else 0.0)
+
+
+def _given(time: float, data: dict[str, Any]) -> list[Given]:
+    """Return an answer once for each complication that it answers: the first is judged by."""
+    answer, verdict = str(data["answer"]), Verdict(data["verdict"])
+    kinds = [Kind(kind) for kind in data["kinds"]]
+    if not kinds:
+        return [Given(time, answer, verdict)]
+    first, *others = kinds
+    right = [Given(time, answer, Verdict.RIGHT, kind) for kind in others]
+    return [Given(time, answer, verdict, first), *right]
 
 
 def _displaced(data: dict[str, Any], placed: PlacedPlan) -> tuple[float, float, float]:

@@ -27,6 +27,7 @@ from app.planning.sampling import core
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
 from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
+from app.session.complications import marks_of_complications
 from app.session.errors import ProcedureNotPossibleError
 from app.session.samples import Samples
 from app.simulation.bound_field import BoundField
@@ -164,6 +165,8 @@ class NeedleNow:
         depth: of the tip [m].
         p_target: target now [m], shape (3,).
         measured: whether the cameras vouch for it.
+        fallen_mm: how far the last control scan showed the target displaced, LPS, shape (3,); None
+            where it did not.
     """
 
     p_tip: FloatArray
@@ -171,14 +174,15 @@ class NeedleNow:
     depth: float
     p_target: FloatArray
     measured: bool
+    fallen_mm: FloatArray | None = None
 
     @classmethod
-    def of(cls, look: Observation | None) -> NeedleNow | None:
+    def of(cls, look: Observation | None, fallen_mm: FloatArray | None = None) -> NeedleNow | None:
         """Return that of an observation; None without one."""
         if look is None:
             return None
         pose = look.pose
-        return cls(pose.p_tip, pose.tip_axis, pose.depth, look.p_target, pose.measured)
+        return cls(pose.p_tip, pose.tip_axis, pose.depth, look.p_target, pose.measured, fallen_mm)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -189,6 +193,7 @@ class _Needle:
     tip_mm: FloatArray
     way: FloatArray
     target_mm: FloatArray
+    fallen_mm: FloatArray | None = None
 
 
 def perform(
@@ -245,11 +250,14 @@ def perform(
 
 
 def marks_of(
-    events: Sequence[Event], samples: Samples, met: tuple[Met, ...] | None
+    events: Sequence[Event],
+    samples: Samples,
+    met: tuple[Met, ...] | None,
+    placed: PlacedPlan | None = None,
 ) -> ProcedureMarks | None:
     """Return what scoring sees of the steps; None where the record has none.
 
-    Damaged events are left out.
+    Damaged events are left out; without `placed`, complications are.
     """
     steps = [(event, _step(event)) for event in events if event.kind == KIND]
     if not steps:
@@ -284,8 +292,11 @@ def marks_of(
     if begins and needle_from is None:
         needle_from = np.inf  # it was never taken
     before = tuple(one for one in met or () if needle_from is not None and one.time < needle_from)
+    happened = None
+    if placed is not None and len(samples.time):
+        happened = marks_of_complications(events, placed, float(samples.time[-1]))
     return ProcedureMarks(
-        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before
+        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before, happened
     )
 
 
@@ -351,7 +362,8 @@ def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | Non
     tip_mm = to_patient @ bound.at_rest(look.p_tip[None], shift[None])[0] / MILLIMETRE
     way = to_patient.rotate(look.tip_axis)
     target_mm = to_patient @ placed.p_target / MILLIMETRE
-    return _Needle(look.depth / MILLIMETRE, tip_mm, way / np.linalg.norm(way), target_mm)
+    way = way / np.linalg.norm(way)
+    return _Needle(look.depth / MILLIMETRE, tip_mm, way, target_mm, look.fallen_mm)
 
 
 def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit:
@@ -386,6 +398,10 @@ def _sample(
     chosen = biopsy.throw(throw)
     try:
         taken = core(field, needle.tip_mm, needle.way, chosen, needle.target_mm, notch_deg)
+        if needle.fallen_mm is not None:  # or where the last scan showed the lesion: the better
+            tip_mm = needle.tip_mm - needle.fallen_mm
+            there = core(field, tip_mm, needle.way, chosen, needle.target_mm, notch_deg)
+            taken = max(taken, there, key=lambda one: one.lesion_mm)
     except PlanError as error:
         raise ProcedureNotPossibleError(str(error)) from error
     mark = SampleMark(
