@@ -60,6 +60,13 @@ class ControlScan:
     inside: Inside | None = None
 
     @property
+    def tissue_range_mm(self) -> tuple[float, float]:
+        """Return LPS z of the tissue that the slices show, where it would rest."""
+        low, high = self.order.range_mm
+        moved = float(self.shift_mm[2])
+        return low - moved, high - moved
+
+    @property
     def seen(self) -> Seen:
         """Return how much of the needle the slices show."""
         return seen(self.order, self.needle)

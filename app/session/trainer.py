@@ -577,6 +577,11 @@ class Trainer:
         self._inputs.hold_breath(held)
 
     @property
+    def tissues(self) -> TissueField | None:
+        """Return the field of the patient's tissue; None where there is none."""
+        return self._tissues
+
+    @property
     def held_arming(self) -> bool:
         """Return whether the forces are on only while `arm` holds them on."""
         return self._arming.held
