@@ -11,6 +11,7 @@ import hashlib
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from math import ceil
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -179,6 +180,38 @@ def attempt_seed(session_id: str, is_assessment: bool) -> int:
     return int.from_bytes(hashlib.sha256(session_id.encode()).digest()[:4], "big")
 
 
+def known_facts(case: ComplicationCase, watch: LungWatch, thick: bool) -> Facts | None:
+    """Return what is known of an attempt by what its needles did; None without a puncture.
+
+    `thick`: whether the outer needle has punctured the pleura, and is a thick one.
+    """
+    if not watch.punctures:
+        return None
+    known = {"again": watch.punctures > 1, "thick": thick}
+    if case.part.emphysema is not None:
+        known["emphysema"] = case.part.emphysema
+    if watch.target_in_lung:
+        known["deep"] = watch.aerated_mm >= DEEP_MM
+    if case.lesion is not None and watch.target_in_lung:
+        known["small"] = case.lesion.diameter_mm < SMALL_MM
+        known["free"] = not case.lesion.touches
+    if watch.knows_lobes:
+        known["fissure"] = watch.fissures > 0
+    if watch.knows_bullae:
+        known["bulla"] = watch.bullae > 0
+    return Facts(case.lying, known)
+
+
+def along_the_plan(case: ComplicationCase) -> Facts | None:
+    """Return what would be known of a needle that goes along the plan once, to its target."""
+    plan = case.placed.plan
+    watch = LungWatch(case.field, plan.target_mm)
+    for share in np.linspace(0.001, 1.0, max(2, ceil(plan.length_mm))).tolist():
+        way = plan.target_mm - plan.entry_mm
+        watch.look(plan.entry_mm + share * way, share * plan.length_mm)
+    return known_facts(case, watch, case.gauge <= THICK_GAUGE)
+
+
 class Complications:
     """Complications of one attempt; not thread-safe.
 
@@ -329,7 +362,7 @@ class Complications:
         self._thick_in |= is_outer and watch.in_lung and case.gauge <= THICK_GAUGE
         if watch.in_lung and is_outer and not case.samples:
             self._may_bleed(needle)
-        facts = self._facts_now()
+        facts = known_facts(case, watch, self._thick_in)
         if facts is None or not case.part.pneumothorax or (not changed and facts == self._facts):
             return []
         if facts == self._facts:
@@ -347,24 +380,6 @@ class Complications:
                 facts=facts.document(),
             )
         ]
-
-    def _facts_now(self) -> Facts | None:
-        case, watch = self._case, self._watch
-        if not watch.punctures:
-            return None
-        known = {"again": watch.punctures > 1, "thick": self._thick_in}
-        if case.part.emphysema is not None:
-            known["emphysema"] = case.part.emphysema
-        if watch.target_in_lung:
-            known["deep"] = watch.aerated_mm >= DEEP_MM
-        if case.lesion is not None and watch.target_in_lung:
-            known["small"] = case.lesion.diameter_mm < SMALL_MM
-            known["free"] = not case.lesion.touches
-        if watch.knows_lobes:
-            known["fissure"] = watch.fissures > 0
-        if watch.knows_bullae:
-            known["bulla"] = watch.bullae > 0
-        return Facts(case.lying, known)
 
     def _may_bleed(self, needle: NeedleNow) -> None:
         if (

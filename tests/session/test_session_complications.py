@@ -157,8 +157,9 @@ def test_the_needle_for_local_anaesthetic_punctures_too_and_is_thin() -> None:
     facts = [e.data["facts"] for e in attempt.events if e.data["step"] == "risk"]
     assert facts[-1]["thick"] is False
     assert attempt.go(5.0).go(30.0).probability > 0.0
-    assert attempt.events[-1].data["facts"] | {"again": True, "thick": True} == (
-        attempt.events[-1].data["facts"]
+    assert (
+        attempt.events[-1].data["facts"] | {"again": True, "thick": True}
+        == (attempt.events[-1].data["facts"])
     )
 
 
@@ -180,9 +181,9 @@ def test_an_assessment_gives_all_one_seed_and_practice_each_its_own() -> None:
 
 
 def test_onset_comes_after_its_cause_and_in_a_share_of_seeds_that_is_the_probability() -> None:
-    begun = 0
+    begun, dry = 0, case(bleeding=False)
     for n in range(120):
-        attempt = Attempt(case(bleeding=False), n)
+        attempt = Attempt(dry, n)
         attempt.go(48.0, speed=100.0).wait(0.1)
         caused = attempt.now
         attempt._look(48.0)
