@@ -68,9 +68,9 @@ class ComplicationPanel(QWidget):
         self.vitals.setWordWrap(True)
         self.told.setWordWrap(True)
         self.vitals.setToolTip(tr("What the monitor shows, and what the patient says"))
-        self.notice.setText(tr("Something is wrong (F12)"))
+        self.notice.setText(tr("Something is wrong (Shift+J)"))
         self.notice.setToolTip(literal(tr("Say it as soon as you see it: the time counts")))
-        self.answer.setText(tr("Do this (Shift+F12)"))
+        self.answer.setText(tr("Do this (Ctrl+Shift+J)"))
         self.answer.setToolTip(literal(tr("Do what is chosen here")))
         self.choice.setAccessibleName(tr("What is to be done"))
         self.choice.setToolTip(tr("What is to be done about a complication, by its size"))
@@ -79,7 +79,7 @@ class ComplicationPanel(QWidget):
             self.choice.addItem(translated(ANSWER_WORDS[answer]), answer)
         self.notice.clicked.connect(self.noticed)
         self.answer.clicked.connect(lambda: self.answered.emit(self.choice.currentData()))
-        for key, button in (("F12", self.notice), ("Shift+F12", self.answer)):
+        for key, button in (("Shift+J", self.notice), ("Ctrl+Shift+J", self.answer)):
             shortcut = QShortcut(QKeySequence(key), self)
             shortcut.setAutoRepeat(False)
             shortcut.activated.connect(button.click)
