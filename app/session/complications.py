@@ -50,12 +50,12 @@ from app.scoring.complications.risk import calibrated
 from app.scoring.errors import TrajectoryError
 from app.scoring.odds import DEEP_MM
 from app.session.lung_watch import LesionFacts, LungWatch, lesion_facts
+from app.session.needle_now import NeedleNow
 from app.simulation.bound_field import BoundField
 
 if TYPE_CHECKING:
     from app.exercises.procedure import ComplicationsPart
     from app.exercises.schema import Exercise
-    from app.session.procedure import NeedleNow
 
 KIND: Final = "complication"
 """Kind of the events."""

@@ -29,12 +29,12 @@ from app.scoring.met import Met
 from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
 from app.session.complications import marks_of_complications
 from app.session.errors import ProcedureNotPossibleError
+from app.session.needle_now import NeedleNow
 from app.session.samples import Samples
 from app.simulation.bound_field import BoundField
 
 if TYPE_CHECKING:
     from app.exercises.procedure import ProcedurePart
-    from app.session.observation import Observation
 
 KIND: Final = "procedure"
 """Kind of the event."""
@@ -153,36 +153,6 @@ class ProcedureState:
                 "{count} samples were taken: the exercise allows no more", count=len(self.samples)
             )
         return ""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class NeedleNow:
-    """The needle at a moment, in world.
-
-    Attributes:
-        p_tip: tip [m], shape (3,).
-        tip_axis: direction in which it goes on, shape (3,).
-        depth: of the tip [m].
-        p_target: target now [m], shape (3,).
-        measured: whether the cameras vouch for it.
-        fallen_mm: how far the last control scan showed the target displaced, LPS, shape (3,); None
-            where it did not.
-    """
-
-    p_tip: FloatArray
-    tip_axis: FloatArray
-    depth: float
-    p_target: FloatArray
-    measured: bool
-    fallen_mm: FloatArray | None = None
-
-    @classmethod
-    def of(cls, look: Observation | None, fallen_mm: FloatArray | None = None) -> NeedleNow | None:
-        """Return that of an observation; None without one."""
-        if look is None:
-            return None
-        pose = look.pose
-        return cls(pose.p_tip, pose.tip_axis, pose.depth, look.p_target, pose.measured, fallen_mm)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

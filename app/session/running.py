@@ -18,8 +18,9 @@ from app.session.errors import IllegalTransitionError, ProcedureNotPossibleError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
 from app.session.needle import DepthSource, NeedlePose
+from app.session.needle_now import NeedleNow
 from app.session.observation import Observation
-from app.session.procedure import NeedleNow, ProcedureState, Step
+from app.session.procedure import ProcedureState, Step
 from app.session.result import AttemptResult
 from app.session.snapshot import DRAWN_LATE
 from app.session.transitions import (

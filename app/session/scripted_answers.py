@@ -8,15 +8,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from app.core.events import Event
 from app.scoring.complications.answers import Answer, Kind, Row
 from app.session.complications import KIND, ComplicationCase, Complications
+from app.session.needle_now import NeedleNow
 from app.simulation.hands import SUFFIX
-
-if TYPE_CHECKING:
-    from app.session.procedure import NeedleNow
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,9 +20,9 @@ from app.imaging.field import TissueField
 from app.planning.placement import PlacedPlan
 from app.session.errors import ProcedureNotPossibleError
 from app.session.needle import FROM_CAMERAS
+from app.session.needle_now import NeedleNow
 from app.session.procedure import (
     KIND,
-    NeedleNow,
     ProcedureState,
     Step,
     Tool,

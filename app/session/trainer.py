@@ -43,9 +43,10 @@ from app.session.errors import (
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
+from app.session.needle_now import NeedleNow
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.procedure import KIND as PROCEDURE
-from app.session.procedure import NeedleNow, ProcedureState, Step, Tool, begin_data
+from app.session.procedure import ProcedureState, Step, Tool, begin_data
 from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk

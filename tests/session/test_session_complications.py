@@ -29,7 +29,7 @@ from app.session.complications import (
 )
 from app.session.control_scan import ControlScan
 from app.session.lung_watch import LungWatch, lesion_facts
-from app.session.procedure import NeedleNow
+from app.session.needle_now import NeedleNow
 from app.session.scripted_answers import MANNERS, ScriptedAnswers
 from app.simulation.bound_field import BoundField
 
