@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from app.core.arrays import FloatArray
+from app.session.needle import NeedlePose
 
-if TYPE_CHECKING:
-    from app.session.observation import Observation
+
+class Looked(Protocol):
+    """An observation of robot and cameras, as far as this needs it."""
+
+    @property
+    def pose(self) -> NeedlePose:
+        """Return the needle's."""
+
+    @property
+    def p_target(self) -> FloatArray:
+        """Return where the target is [m], shape (3,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,7 +43,7 @@ class NeedleNow:
     fallen_mm: FloatArray | None = None
 
     @classmethod
-    def of(cls, look: Observation | None, fallen_mm: FloatArray | None = None) -> NeedleNow | None:
+    def of(cls, look: Looked | None, fallen_mm: FloatArray | None = None) -> NeedleNow | None:
         """Return that of an observation; None without one."""
         if look is None:
             return None
