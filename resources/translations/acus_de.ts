@@ -2840,6 +2840,22 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">tolerances: {metric} gehört zu einem Pfad, den die Studierenden wählen: Nehmen Sie plan {{own: true}}, oder lassen Sie es weg</translation>
         </message>
         <message>
+            <source>tolerances: {metric} is of a step that the exercise does not ask for: add {part} to procedure, or leave it out</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>procedure: what a step meets is looked up in the patient: use tissue: field</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>procedure: a tool that touches targets takes no steps</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>procedure: complications are seen in control scans, and live pictures are of the patient before: use guidance.mode: control_ct</source>
+            <translation>procedure: Komplikationen sieht man in Kontrollscans, und Live-Bilder zeigen den Patienten vorher: guidance.mode: control_ct verwenden</translation>
+        </message>
+        <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
             <translation type="unfinished">plan {{own: true}} bei einem CT-Ordner braucht target_mm: [x, y, z]</translation>
         </message>
@@ -5624,6 +5640,14 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">kein Gewebefeld sagte, was die Nadel traf</translation>
         </message>
         <message>
+            <source>the exercise asks for no steps of a procedure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no complication can happen in this exercise</source>
+            <translation>in dieser Übung kann keine Komplikation eintreten</translation>
+        </message>
+        <message>
             <source>nothing was to be touched</source>
             <translation type="unfinished">es war nichts zu berühren</translation>
         </message>
@@ -6648,6 +6672,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">im Zustand {attempt_state} ist kein Kontrollscan möglich: Beginnen Sie zuerst einen Versuch</translation>
         </message>
         <message>
+            <source>no step of a procedure is possible now: begin an attempt at an exercise that asks for it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>no attempt has begun</source>
             <translation type="unfinished">es hat kein Versuch begonnen</translation>
         </message>
@@ -6826,6 +6854,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>the tip moved by {spread_mm:.1f} mm while it was measured: rest it in the mark and hold still for a second</source>
             <translation type="unfinished">die Spitze bewegte sich während der Messung um {spread_mm:.1f} mm: Setzen Sie sie in die Marke und halten Sie eine Sekunde still</translation>
+        </message>
+        <message>
+            <source>no complication can be answered now: begin an attempt at an exercise in which some can happen</source>
+            <translation>jetzt kann auf keine Komplikation reagiert werden: einen Versuch an einer Übung beginnen, in der eine eintreten kann</translation>
         </message>
         <message>
             <source>nobody can take the needle over while {running_attempt_state}: no attempt is running</source>
@@ -9935,6 +9967,42 @@ Anteil</translation>
             <translation type="unfinished">rechts</translation>
         </message>
         <message>
+            <source>it helps, but something else is called for</source>
+            <translation>es hilft, aber etwas anderes ist angezeigt</translation>
+        </message>
+        <message>
+            <source>wrong</source>
+            <translation>falsch</translation>
+        </message>
+        <message>
+            <source>there is no complication</source>
+            <translation>es gibt keine Komplikation</translation>
+        </message>
+        <message>
+            <source>a pneumothorax begins</source>
+            <translation>ein Pneumothorax beginnt</translation>
+        </message>
+        <message>
+            <source>the lung bleeds</source>
+            <translation>die Lunge blutet</translation>
+        </message>
+        <message>
+            <source>you say that something is wrong</source>
+            <translation>Sie sagen, dass etwas nicht stimmt</translation>
+        </message>
+        <message>
+            <source>{answer}: {verdict}</source>
+            <translation>{answer}: {verdict}</translation>
+        </message>
+        <message>
+            <source>{answer} ({row})</source>
+            <translation>{answer} ({row})</translation>
+        </message>
+        <message>
+            <source>odds of a pneumothorax</source>
+            <translation>Odds eines Pneumothorax</translation>
+        </message>
+        <message>
             <source>Latency of the {name} camera</source>
             <translation type="unfinished">Latenz der Kamera {name}</translation>
         </message>
@@ -11298,6 +11366,10 @@ Anteil</translation>
             <translation type="unfinished">Was die Nadel getroffen hat, mit der Kraft längs der Nadel</translation>
         </message>
         <message>
+            <source>What happened to the patient</source>
+            <translation>Was dem Patienten geschah</translation>
+        </message>
+        <message>
             <source>Next: {title}</source>
             <translation type="unfinished">Weiter: {title}</translation>
         </message>
@@ -11643,6 +11715,10 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>✔ {name}: {distance:.1f} mm, at {when} (limit {limit:g} mm)</source>
             <translation type="unfinished">✔ {name}: {distance:.1f} mm, bei {when} (Grenze {limit:g} mm)</translation>
+        </message>
+        <message>
+            <source>· {what}, at {when}</source>
+            <translation>· {what}, bei {when}</translation>
         </message>
         <message>
             <source>real robot</source>
@@ -17302,6 +17378,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">rückgängig, wiederholen</translation>
         </message>
         <message>
+            <source>procedure: next step; fire the biopsy gun</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>patient: something is wrong; do what is chosen</source>
+            <translation>Patient: etwas stimmt nicht; tun, was gewählt ist</translation>
+        </message>
+        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">Plan speichern, speichern als</translation>
         </message>
@@ -18554,6 +18638,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alle</translation>
         </message>
         <message>
+            <source>Anaesthetic to membrane</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Angle error at the skin</source>
             <translation type="unfinished">Winkelfehler an der Haut</translation>
         </message>
@@ -18626,6 +18714,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Kompetenz: LC-CUSUM, danach CUSUM</translation>
         </message>
         <message>
+            <source>Complication answered</source>
+            <translation>Reaktion auf Komplikation</translation>
+        </message>
+        <message>
+            <source>Complication noticed after</source>
+            <translation>Komplikation bemerkt nach</translation>
+        </message>
+        <message>
             <source>Contact of the tip with bone</source>
             <translation type="unfinished">Kontakt der Spitze mit Knochen</translation>
         </message>
@@ -18652,6 +18748,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Depth error</source>
             <translation type="unfinished">Tiefenfehler</translation>
+        </message>
+        <message>
+            <source>Diagnostic samples</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Dimpling and puncture of skin, fascia and capsule</source>
@@ -18742,6 +18842,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Haltezeit</translation>
         </message>
         <message>
+            <source>Hub open to air</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Impedance at the tool point: virtual mass, spring and damper</source>
             <translation type="unfinished">Impedanz am Werkzeugpunkt: virtuelle Masse, Feder und Dämpfer</translation>
         </message>
@@ -18774,12 +18878,24 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Kleinste Quadrate über das ganze Bild des Bands</translation>
         </message>
         <message>
+            <source>Lesion in the best sample</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Letting go of the needle: force to be had against run-away</source>
             <translation type="unfinished">Loslassen der Nadel: nutzbare Kraft gegenüber dem Davonlaufen</translation>
         </message>
         <message>
             <source>Light before the cameras</source>
             <translation type="unfinished">Licht vor den Kameras</translation>
+        </message>
+        <message>
+            <source>Lung biopsy in which something can happen</source>
+            <translation>Lungenbiopsie, bei der etwas geschehen kann</translation>
+        </message>
+        <message>
+            <source>Lung biopsy, from the skin to the sample</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Lung, oblique twice between ribs</source>
@@ -18796,6 +18912,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Mean force, estimated</source>
             <translation type="unfinished">Mittlere Kraft, geschätzt</translation>
+        </message>
+        <message>
+            <source>Met by a throw</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Metrics against what is published of them</source>
@@ -18850,8 +18970,16 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Wegverhältnis</translation>
         </message>
         <message>
+            <source>Pause before the membrane</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Peak force, estimated</source>
             <translation type="unfinished">Spitzenkraft, geschätzt</translation>
+        </message>
+        <message>
+            <source>Pierced by the anaesthetic</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Planned path</source>
@@ -18932,6 +19060,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Surfaces of the 3D view: resolution of the grid against time</source>
             <translation type="unfinished">Oberflächen der 3D-Ansicht: Auflösung des Gitters gegenüber Zeit</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). An answer to what is not there counts as a wrong one.</source>
+            <translation>Nehmen Sie unter Kontrollscans zwei Proben des Knotens in der rechten Lunge: Lokalanästhesie bis an die Pleura (J), die Hohlnadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Biopsiepistole hinein (J), auslösen (Ctrl+J), Pistole heraus, Mandrin hinein. Scannen Sie wieder (S), und achten Sie auf Monitor und Patient: die Lunge kann zusammenfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J). Eine Antwort auf etwas, das nicht da ist, zählt als falsche.</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung. First give local anaesthetic down to the pleura and not through it (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Target error</source>
@@ -19787,6 +19923,24 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
   refused {kind}: {reason}</source>
             <translation type="unfinished">
   abgelehnt {kind}: {reason}</translation>
+        </message>
+        <message>
+            <source>
+  complications, by lot at published odds: pneumothorax {air:.0f} % of a needle along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %</source>
+            <translation>
+  Komplikationen, durch das Los nach veröffentlichten Odds: Pneumothorax {air:.0f} % bei einer Nadel entlang des Plans, {drain:.0f} % davon mit Drainage; Blut in der Lunge {blood:.0f} %</translation>
+        </message>
+        <message>
+            <source>    it has: {factors}</source>
+            <translation>    sie hat: {factors}</translation>
+        </message>
+        <message>
+            <source>    not known, as in the case mix: {factors}</source>
+            <translation>    nicht bekannt, wie im Patientengut: {factors}</translation>
+        </message>
+        <message>
+            <source>    {source}</source>
+            <translation>    {source}</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -22503,6 +22657,402 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
             <translation type="unfinished">dem Token von {name} wird nicht geglaubt: {reason}; niemand wurde angemeldet: nochmals versuchen, und bleibt es so, den Betreiber fragen</translation>
+        </message>
+        <message>
+            <source>diagnostic_mm {diagnostic_mm:g} is more than the longest notch holds, {longest:g} mm: no sample could suffice</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>neither pneumothorax nor bleeding can happen: leave complications out</source>
+            <translation>Weder Pneumothorax noch Blutung kann eintreten: complications weglassen</translation>
+        </message>
+        <message>
+            <source>procedure names no step; there are {names}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a share of {share} of the chest is none</source>
+            <translation>ein Anteil {share} des Brustkorbs ist keiner</translation>
+        </message>
+        <message>
+            <source>blood {radius} mm about the needle's way is none</source>
+            <translation>Blut {radius} mm um den Nadelweg gibt es nicht</translation>
+        </message>
+        <message>
+            <source>gravity has no direction</source>
+            <translation>die Schwerkraft hat keine Richtung</translation>
+        </message>
+        <message>
+            <source>a throw of {throw_mm:g} mm with a notch of {notch_mm:g} mm and a tip of {tip_mm:g} mm beyond it: all must be above 0</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a notch of {notch_mm:g} mm and {tip_mm:g} mm beyond it are longer than the throw of {throw_mm:g} mm: part of the notch would stay in the outer needle</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the throw leaves the organ {ahead:.1f} mm ahead, into {tissue}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the throw meets {tissue} {ahead:.1f} mm ahead, for {length:.1f} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the target lies in {tissue}: nobody marked a lesion there, so that no sample can be judged; mark it as a structure of kind target</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the needle has no direction</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>go on through the outer needle, and watch</source>
+            <translation>durch die Hohlnadel weitermachen und beobachten</translation>
+        </message>
+        <message>
+            <source>withdraw into the pleural space and aspirate</source>
+            <translation>in den Pleuraraum zurückziehen und aspirieren</translation>
+        </message>
+        <message>
+            <source>turn the patient, puncture side down</source>
+            <translation>den Patienten drehen, Punktionsseite nach unten</translation>
+        </message>
+        <message>
+            <source>give oxygen</source>
+            <translation>Sauerstoff geben</translation>
+        </message>
+        <message>
+            <source>place a chest drain</source>
+            <translation>eine Thoraxdrainage legen</translation>
+        </message>
+        <message>
+            <source>stop and call for help</source>
+            <translation>abbrechen und Hilfe rufen</translation>
+        </message>
+        <message>
+            <source>pneumothorax of less than 20 mm, no symptoms</source>
+            <translation>Pneumothorax unter 20 mm, keine Symptome</translation>
+        </message>
+        <message>
+            <source>pneumothorax of 20 mm or more</source>
+            <translation>Pneumothorax ab 20 mm</translation>
+        </message>
+        <message>
+            <source>pneumothorax of 30 mm or more, or one with a saturation below 92 %, or one that came back after aspiration</source>
+            <translation>Pneumothorax ab 30 mm, oder einer mit einer Sättigung unter 92 %, oder einer, der nach Aspiration wiederkam</translation>
+        </message>
+        <message>
+            <source>blood about the needle's way, none coughed</source>
+            <translation>Blut um den Nadelweg, keines ausgehustet</translation>
+        </message>
+        <message>
+            <source>blood coughed, or more than 2 cm about the needle's way</source>
+            <translation>Blut ausgehustet, oder mehr als 2 cm um den Nadelweg</translation>
+        </message>
+        <message>
+            <source>no cough</source>
+            <translation>kein Husten</translation>
+        </message>
+        <message>
+            <source>coughs blood</source>
+            <translation>hustet Blut</translation>
+        </message>
+        <message>
+            <source>coughs</source>
+            <translation>hustet</translation>
+        </message>
+        <message>
+            <source>Saturation {saturation} %, pulse {pulse}/min, pain {pain} of 10, {cough}</source>
+            <translation>Sättigung {saturation} %, Puls {pulse}/min, Schmerz {pain} von 10, {cough}</translation>
+        </message>
+        <message>
+            <source>emphysema</source>
+            <translation>Emphysem</translation>
+        </message>
+        <message>
+            <source>lesion smaller than 4 cm</source>
+            <translation>Läsion unter 4 cm</translation>
+        </message>
+        <message>
+            <source>lesion without contact to the pleura</source>
+            <translation>Läsion ohne Pleurakontakt</translation>
+        </message>
+        <message>
+            <source>3 cm of lung or more on the way</source>
+            <translation>3 cm Lunge oder mehr auf dem Weg</translation>
+        </message>
+        <message>
+            <source>needle of 18 G or thicker</source>
+            <translation>Nadel von 18 G oder dicker</translation>
+        </message>
+        <message>
+            <source>pleura punctured more than once</source>
+            <translation>Pleura mehr als einmal punktiert</translation>
+        </message>
+        <message>
+            <source>fissure crossed</source>
+            <translation>Fissur durchquert</translation>
+        </message>
+        <message>
+            <source>bulla crossed</source>
+            <translation>Bulla durchquert</translation>
+        </message>
+        <message>
+            <source>a case mix has {factors} shares of factors and {positions} of positions</source>
+            <translation>ein Patientengut hat {factors} Anteile von Faktoren und {positions} von Lagerungen</translation>
+        </message>
+        <message>
+            <source>{share} is no share: it must lie between 0 and 1</source>
+            <translation>{share} ist kein Anteil: er muss zwischen 0 und 1 liegen</translation>
+        </message>
+        <message>
+            <source>the shares of positions add up to {total:g}, not 1</source>
+            <translation>die Anteile der Lagerungen ergeben zusammen {total:g}, nicht 1</translation>
+        </message>
+        <message>
+            <source>{name!r} is no factor; there are {names}</source>
+            <translation>{name!r} ist kein Faktor; es gibt {names}</translation>
+        </message>
+        <message>
+            <source>lot {name} is {value!r}; it must lie between 0 and 1</source>
+            <translation>Los {name} ist {value!r}; es muss zwischen 0 und 1 liegen</translation>
+        </message>
+        <message>
+            <source>a complication of the attempt: a number is not finite</source>
+            <translation>eine Komplikation des Versuchs: eine Zahl ist nicht endlich</translation>
+        </message>
+        <message>
+            <source>no odds of this case mix give the published odds ratios and incidence</source>
+            <translation>keine Odds dieses Patientenguts ergeben die veröffentlichten Odds Ratios und die Häufigkeit</translation>
+        </message>
+        <message>
+            <source>no local anaesthetic was given</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no pleura or capsule is known on the needle's way</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>no complication happened</source>
+            <translation>keine Komplikation ist eingetreten</translation>
+        </message>
+        <message>
+            <source>no sample was taken</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>neither pleura nor capsule was crossed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a step of the procedure at {time} s: a number is not finite</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>local anaesthetic given</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the outer needle is taken</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>stylet out: the hub is open</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>stylet in</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>biopsy gun in</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>biopsy gun fired</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>biopsy gun out: the hub is open</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>needle for local anaesthetic</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>outer needle with its stylet</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>outer needle, open to air</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>outer needle with the biopsy gun, cocked</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>outer needle with the biopsy gun, fired</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>this exercise takes no samples</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>not possible now: held is the {tool}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the syringe is empty after {count} times</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{count} samples were taken: the exercise allows no more</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>not done: the needle's depth is not measured now; let both cameras see the marker and do it again</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the tip is outside the skin: insert it first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>nothing tells which tissue lies where: use tissue: field in the exercise</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>setting {number} of the gun: there are 0 to {most}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a script cannot stop at {stops}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>What the monitor shows, and what the patient says</source>
+            <translation>Was der Monitor zeigt und was der Patient sagt</translation>
+        </message>
+        <message>
+            <source>Something is wrong (Shift+J)</source>
+            <translation>Etwas stimmt nicht (Shift+J)</translation>
+        </message>
+        <message>
+            <source>Say it as soon as you see it: the time counts</source>
+            <translation>Sagen Sie es, sobald Sie es sehen: die Zeit zählt</translation>
+        </message>
+        <message>
+            <source>Do this (Ctrl+Shift+J)</source>
+            <translation>Das tun (Ctrl+Shift+J)</translation>
+        </message>
+        <message>
+            <source>Do what is chosen here</source>
+            <translation>Tun, was hier gewählt ist</translation>
+        </message>
+        <message>
+            <source>What is to be done</source>
+            <translation>Was zu tun ist</translation>
+        </message>
+        <message>
+            <source>What is to be done about a complication, by its size</source>
+            <translation>Was gegen eine Komplikation zu tun ist, nach ihrer Größe</translation>
+        </message>
+        <message>
+            <source>Patient</source>
+            <translation>Patient</translation>
+        </message>
+        <message>
+            <source>{throw} mm, notch {notch} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Held: {tool}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Next step (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Fire the gun (Ctrl+J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The gun's needle runs ahead by its throw and brings back a core</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>What follows in the usual order</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>How far the gun's needle runs ahead of the outer needle's tip</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>To which side the notch is open, as on a clock seen from the hub: 12 is the front</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Throw</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Notch</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{hour} o'clock</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Procedure</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Give local anaesthetic (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Take the outer needle (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Stylet out (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Gun in (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Gun out (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Stylet in (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Local anaesthetic: {n} times</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✔ Sample {n}: {mm:.1f} mm of lesion, sufficient</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>
