@@ -47,7 +47,7 @@ SLICE_MARGIN_MM: Final = 2.0
 
 def cavity(
     field: TissueField, is_left: bool, lesion_mm: ArrayLike, range_mm: tuple[float, float]
-) -> Grid:
+) -> LungGrid:
     """Return what moves as one lung between two heights: 1 in it and in what lies in it, else 0.
 
     Args:
@@ -63,14 +63,14 @@ def cavity(
     margin = CLOSING_MM + 2.0 * float(field.spacing_mm[2])
     wanted = layers[(z >= min(range_mm) - margin) & (z <= max(range_mm) + margin)]
     if not len(wanted):
-        return Grid(np.zeros((1, 1, 1), np.float32), field.affine_mm)
+        return LungGrid(np.zeros((1, 1, 1), np.float32), field.affine_mm)
     labels = field.labels[wanted[0] : wanted[-1] + 1]
     lung = np.isin(labels, [tissue.code for tissue in field.of_kind(TissueKind.LUNG)])
     middle = (middle_mm(field) - field.affine_mm[0, 3]) / max(field.affine_mm[0, 0], 1e-9)
     lung &= (np.arange(labels.shape[2]) > middle) == is_left
     boxes = ndimage.find_objects(lung.astype(np.int8))
     if not boxes:
-        return Grid(np.zeros((1, 1, 1), np.float32), field.affine_mm)
+        return LungGrid(np.zeros((1, 1, 1), np.float32), field.affine_mm)
     box = tuple(slice(max(0, p.start - rounds - 1), p.stop + rounds + 1) for p in boxes[0])
     ball = ndimage.generate_binary_structure(3, 1)
     padded = np.pad(lung[box], rounds, mode="edge")  # the lung goes on where the range ends
@@ -81,7 +81,7 @@ def cavity(
     corner = np.array([box[2].start, box[1].start, box[0].start + int(wanted[0])], np.float64)
     affine = field.affine_mm.copy()
     affine[:3, 3] += affine[:3, :3] @ corner
-    return Grid(whole.astype(np.float32), affine)
+    return LungGrid(whole.astype(np.float32), affine)
 
 
 def changed_ct(
@@ -115,7 +115,7 @@ def changed_ct(
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class LungGrid:
     """Values on a grid: array of shape (K, J, I), and voxel (i, j, k) -> LPS [mm]."""
 
     values: NDArray[np.float32]
@@ -127,7 +127,7 @@ class Grid:
         return np.asarray(np.linalg.inv(self.affine_mm))
 
 
-def _pixels(volume: Volume, lung: Grid, rows: NDArray[np.intp]) -> tuple[slice, slice]:
+def _pixels(volume: Volume, lung: LungGrid, rows: NDArray[np.intp]) -> tuple[slice, slice]:
     """Return rows and columns of the CT about the lung."""
     k, j, i = lung.values.shape
     ends = np.array([[a, b, c] for a in (0, i - 1) for b in (0, j - 1) for c in (0, k - 1)])
@@ -143,7 +143,7 @@ def _change_slice(
     k: int,
     box: tuple[slice, slice],
     volume: Volume,
-    lung: Grid,
+    lung: LungGrid,
     inside: Inside,
 ) -> None:
     part = hu[k][box]
@@ -204,7 +204,7 @@ def _bled(values: FloatArray, source: FloatArray, way: FloatArray, inside: Insid
 
 
 def _sampled(
-    array: NDArray[Any], places: FloatArray, grid: Volume | Grid, outside: float = 0.0
+    array: NDArray[Any], places: FloatArray, grid: Volume | LungGrid, outside: float = 0.0
 ) -> FloatArray:
     """Return an array between its voxels, by LPS places, shape (n, 3) -> (n,)."""
     ijk = places @ grid.inverse_mm[:3, :3].T + grid.inverse_mm[:3, 3]

@@ -27,10 +27,10 @@ from app.planning.placement import PatientOrientation, PlacedPlan
 from app.scoring.complications.answers import (
     ANSWER_WORDS,
     ROWS,
-    Answer,
+    AnswerWorth,
+    GuidelineRow,
     Kind,
-    Row,
-    Verdict,
+    Reaction,
     row_of_air,
     row_of_blood,
 )
@@ -65,10 +65,10 @@ VERSION: Final = 1
 NEVER: Final = float("inf")
 
 VERDICT_WORDS: Final = {
-    Verdict.RIGHT: sentence("right"),
-    Verdict.HELPS: sentence("it helps, but something else is called for"),
-    Verdict.WRONG: sentence("wrong"),
-    Verdict.NOTHING_THERE: sentence("there is no complication"),
+    AnswerWorth.RIGHT: sentence("right"),
+    AnswerWorth.HELPS: sentence("it helps, but something else is called for"),
+    AnswerWorth.WRONG: sentence("wrong"),
+    AnswerWorth.NOTHING_THERE: sentence("there is no complication"),
 }
 ONSET_WORDS: Final = {
     Kind.PNEUMOTHORAX: sentence("a pneumothorax begins"),
@@ -83,12 +83,12 @@ class Happening:
     Attributes:
         words: one line for people.
         data: of the event.
-        told: whether the student is told at once.
+        is_told: whether the student is told at once.
     """
 
     words: str
     data: dict[str, object]
-    told: bool = False
+    is_told: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,7 +257,7 @@ class Complications:
         return 0.0 if shape is None else shape.rim_mm(self.share)
 
     @property
-    def rows(self) -> tuple[Row, ...]:
+    def rows(self) -> tuple[GuidelineRow, ...]:
         """Return the rows of the table of answers that hold now."""
         found = []
         if self._leak is not None and self.share > 0.0:
@@ -296,16 +296,16 @@ class Complications:
         self._state = replace(self._state, noticed=self._state.noticed + 1)
         there = bool(self.rows)
         words = sentence("you say that something is wrong")
-        return self._happening(words, "notice", told=True, there=there)
+        return self._happening(words, "notice", is_told=True, there=there)
 
-    def answer(self, answer: Answer) -> Happening:
-        """Answer what there is, or nothing."""
+    def answer(self, answer: Reaction) -> Happening:
+        """Reaction what there is, or nothing."""
         row, verdict, kinds = self._judge(answer)
         share, rim_mm = self.share, self.rim_mm
         words = sentence(
             "{answer}: {verdict}", answer=ANSWER_WORDS[answer], verdict=VERDICT_WORDS[verdict]
         )
-        if row is not None and verdict is not Verdict.RIGHT:
+        if row is not None and verdict is not AnswerWorth.RIGHT:
             words = sentence("{answer} ({row})", answer=words, row=row.words)
         self._act(answer)
         self._state = replace(
@@ -316,7 +316,7 @@ class Complications:
         return self._happening(
             words,
             "answer",
-            told=True,
+            is_told=True,
             answer=answer.value,
             verdict=verdict.value,
             kinds=[kind.value for kind in kinds],
@@ -438,7 +438,7 @@ class Complications:
         return found
 
     # --- what is done about it --------------------------------------------------------------------
-    def _judge(self, answer: Answer) -> tuple[Row | None, Verdict, list[Kind]]:
+    def _judge(self, answer: Reaction) -> tuple[GuidelineRow | None, AnswerWorth, list[Kind]]:
         """Return the row that an answer is judged by, what it is worth, and what it answers.
 
         It is judged by the worst of what there is. What is not wrong there answers all else too
@@ -446,8 +446,8 @@ class Complications:
         """
         rows = self.rows
         if not rows:
-            return None, Verdict.NOTHING_THERE, []
-        order, most = list(Verdict), max(row.severity for row in rows)
+            return None, AnswerWorth.NOTHING_THERE, []
+        order, most = list(AnswerWorth), max(row.severity for row in rows)
         worst = [row for row in rows if row.severity == most]
         row = min(worst, key=lambda one: order.index(one.verdict(answer)))
         verdict = row.verdict(answer)
@@ -455,23 +455,23 @@ class Complications:
             one.kind
             for one in rows
             if one is not row
-            and verdict is not Verdict.WRONG
-            and one.verdict(answer) is Verdict.RIGHT
+            and verdict is not AnswerWorth.WRONG
+            and one.verdict(answer) is AnswerWorth.RIGHT
         ]
         return row, verdict, [row.kind, *others]
 
-    def _act(self, answer: Answer) -> None:
+    def _act(self, answer: Reaction) -> None:
         leak, now = self._leak, self._clock
-        self._oxygen |= answer is Answer.OXYGEN
+        self._oxygen |= answer is Reaction.OXYGEN
         if leak is None:
             return
-        if answer is Answer.ASPIRATE:
+        if answer is Reaction.ASPIRATE:
             lot = (self._lots.aspiration + 0.618 * self._aspirations) % 1.0  # each its own
             self._aspirations += 1
             self._leak = leak.aspirated(now, self.rim_mm, lot)
-        elif answer is Answer.DRAIN:
+        elif answer is Reaction.DRAIN:
             self._leak = leak.drained(now)
-        elif answer is Answer.TURN:
+        elif answer is Reaction.TURN:
             self._leak = leak.turned(now)
 
     def _at_rest(self, needle: NeedleNow) -> FloatArray:
@@ -481,9 +481,9 @@ class Complications:
         resting = self._case.bound.at_rest(needle.p_tip[None], shift[None])[0]
         return np.asarray(placed.T_world_patient.inverse() @ resting / MILLIMETRE)
 
-    def _happening(self, words: str, step: str, told: bool = False, **data: object) -> Happening:
+    def _happening(self, words: str, step: str, is_told: bool = False, **data: object) -> Happening:
         known: dict[str, object] = {"version": VERSION, "step": step, "patient_s": self._clock}
-        return Happening(words, known | data, told)
+        return Happening(words, known | data, is_told)
 
 
 def marks_of_complications(
@@ -530,12 +530,12 @@ def marks_of_complications(
 
 def _given(time: float, data: dict[str, Any]) -> list[Given]:
     """Return an answer once for each complication that it answers: the first is judged by."""
-    answer, verdict = str(data["answer"]), Verdict(data["verdict"])
+    answer, verdict = str(data["answer"]), AnswerWorth(data["verdict"])
     kinds = [Kind(kind) for kind in data["kinds"]]
     if not kinds:
         return [Given(time, answer, verdict)]
     first, *others = kinds
-    right = [Given(time, answer, Verdict.RIGHT, kind) for kind in others]
+    right = [Given(time, answer, AnswerWorth.RIGHT, kind) for kind in others]
     return [Given(time, answer, verdict, first), *right]
 
 

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Final
 
 from app.core.events import Event
-from app.scoring.complications.answers import Answer, Kind, Row
+from app.scoring.complications.answers import GuidelineRow, Kind, Reaction
 from app.session.complications import KIND, ComplicationCase, Complications
 from app.session.needle_now import NeedleNow
 from app.simulation.hands import SUFFIX
@@ -62,7 +62,7 @@ class ScriptedAnswers:
         manner = MANNERS.get(skill.removesuffix(SUFFIX))
         return None if manner is None else cls(manner)
 
-    def look(self, rows: Sequence[Row], now: float) -> Answer | None:
+    def look(self, rows: Sequence[GuidelineRow], now: float) -> Reaction | None:
         """Return what is answered at `now` [s] to the rows that hold; None for nothing yet."""
         for row in sorted(rows, key=lambda one: -one.severity):
             if row.severity <= self._answered.get(row.kind, 0):
@@ -76,10 +76,10 @@ class ScriptedAnswers:
                 return self._of(row)
         return None
 
-    def _of(self, row: Row) -> Answer:
+    def _of(self, row: GuidelineRow) -> Reaction:
         if not self.manner.is_right:
-            return Answer.OXYGEN
-        return next(answer for answer in Answer if answer in row.right)
+            return Reaction.OXYGEN
+        return next(answer for answer in Reaction if answer in row.right)
 
 
 @dataclass(slots=True)

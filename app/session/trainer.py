@@ -20,7 +20,7 @@ from app.exercises.locks import Lock
 from app.imaging.field import TissueField
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
-from app.scoring.complications.answers import Answer
+from app.scoring.complications.answers import Reaction
 from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
 from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
@@ -380,15 +380,15 @@ class Trainer:
         """
         self._respond(None)
 
-    def answer(self, answer: Answer) -> None:
-        """Answer a complication; one that is not there is told, and recorded.
+    def answer(self, answer: Reaction) -> None:
+        """Reaction a complication; one that is not there is told, and recorded.
 
         Raises:
             ProcedureNotPossibleError: if no attempt runs in which anything can happen.
         """
         self._respond(answer)
 
-    def _respond(self, answer: Answer | None) -> None:
+    def _respond(self, answer: Reaction | None) -> None:
         self.resting.want()
         with self._lock:
             happens = self._happens
@@ -403,7 +403,7 @@ class Trainer:
             self._keep(happening, self._clock.now())
 
     def _keep(self, happening: Happening, now: float) -> None:
-        keep = self._running.say if happening.told else self._running.keep
+        keep = self._running.say if happening.is_told else self._running.keep
         keep(COMPLICATION, happening.words, now, happening.data)
 
     def _begin_complications(self, header: SessionHeader, now: float) -> None:

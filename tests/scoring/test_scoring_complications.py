@@ -10,9 +10,9 @@ from app.scoring.complications.answers import (
     MEDIUM,
     SMALL,
     TABLE,
-    Answer,
+    AnswerWorth,
     Kind,
-    Verdict,
+    Reaction,
     row_of_air,
     row_of_blood,
 )
@@ -255,7 +255,7 @@ def test_each_row_of_the_table_has_a_right_answer_and_a_source() -> None:
         assert row.right
         assert not row.right & row.helps
         assert "PMC" in row.source
-        assert {row.verdict(answer) for answer in row.right} == {Verdict.RIGHT}
+        assert {row.verdict(answer) for answer in row.right} == {AnswerWorth.RIGHT}
 
 
 @pytest.mark.parametrize(
@@ -269,12 +269,12 @@ def test_the_row_follows_size_and_symptoms(rim_mm, symptoms, in_vain, row) -> No
 
 
 def test_what_is_right_follows_the_guideline() -> None:
-    assert SMALL.right == {Answer.GO_ON}
-    assert MEDIUM.right == {Answer.ASPIRATE}
-    assert LARGE.right == {Answer.DRAIN}
-    assert LARGE.verdict(Answer.GO_ON) is Verdict.WRONG
-    assert row_of_blood(False, True).right == {Answer.TURN, Answer.STOP}
-    assert row_of_blood(False, False).right == {Answer.GO_ON}
+    assert SMALL.right == {Reaction.GO_ON}
+    assert MEDIUM.right == {Reaction.ASPIRATE}
+    assert LARGE.right == {Reaction.DRAIN}
+    assert LARGE.verdict(Reaction.GO_ON) is AnswerWorth.WRONG
+    assert row_of_blood(False, True).right == {Reaction.TURN, Reaction.STOP}
+    assert row_of_blood(False, False).right == {Reaction.GO_ON}
 
 
 AIR, BLOOD = Kind.PNEUMOTHORAX, Kind.BLEEDING
@@ -306,12 +306,12 @@ def demand(row=SMALL, time=100.0) -> Demand:
      (((110.0, "right"), (120.0, "wrong")), (1.0,))],
 )  # fmt: skip
 def test_an_answer_is_worth_what_it_is_by_the_table(given, worth) -> None:
-    answers = tuple(Given(time, "x", Verdict(verdict), AIR) for time, verdict in given)
+    answers = tuple(Given(time, "x", AnswerWorth(verdict), AIR) for time, verdict in given)
     assert marks(demands=(demand(),), given=answers).worth() == worth
 
 
 def test_a_worse_row_asks_for_an_answer_of_its_own() -> None:
-    right = (Given(110.0, "go_on", Verdict.RIGHT, AIR),)
+    right = (Given(110.0, "go_on", AnswerWorth.RIGHT, AIR),)
     both = (demand(), demand(MEDIUM, 150.0))
     assert marks(demands=both, given=right).worth() == (1.0, 0.0)
     assert marks(demands=(demand(), demand(MEDIUM, 110.0))).worth() == (0.0,)  # 10 s of the first
@@ -319,7 +319,7 @@ def test_a_worse_row_asks_for_an_answer_of_its_own() -> None:
 
 
 def test_an_answer_to_nothing_counts_as_a_wrong_one() -> None:
-    nothing = (Given(50.0, "drain", Verdict.NOTHING_THERE),)
+    nothing = (Given(50.0, "drain", AnswerWorth.NOTHING_THERE),)
     assert marks(given=nothing).worth() == (0.0,)
     assert marks().worth() == ()
 

@@ -14,7 +14,7 @@ from app.imaging.field import TissueKind
 from app.imaging.inside import lung_shape
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
-from app.scoring.complications.answers import Answer, Kind
+from app.scoring.complications.answers import Kind, Reaction
 from app.scoring.complications.factors import Lying
 from app.scoring.complications.lots import Lots
 from app.scoring.procedure import ProcedureMarks
@@ -79,7 +79,7 @@ class Attempt:
             self._look(self.depth, waits, 0.1)
         return self
 
-    def do(self, answer: Answer) -> str:
+    def do(self, answer: Reaction) -> str:
         happening = self.happens.answer(answer)
         self.events.append(self._event(happening))
         return happening.words
@@ -216,21 +216,21 @@ def test_what_waits_for_the_program_does_not_grow() -> None:
 
 def test_it_is_noticed_and_answered_by_size() -> None:
     attempt = Attempt(case(bleeding=False), SMALL).go(48.0).wait(60.0)
-    assert "right" in attempt.do(Answer.GO_ON)
+    assert "right" in attempt.do(Reaction.GO_ON)
     marks = attempt.marks()
     assert marks.worth() == (1.0,)
     assert marks.waits() == (attempt.now - attempt.onset,)
     late = Attempt(case(bleeding=False), LARGE).go(48.0).wait(250.0)
-    words = late.do(Answer.GO_ON)
+    words = late.do(Reaction.GO_ON)
     assert "wrong" in words
     assert "pneumothorax of" in words
-    assert "right" in late.do(Answer.DRAIN)
+    assert "right" in late.do(Reaction.DRAIN)
     assert late.wait(60.0).happens.share < 0.1
 
 
 def test_an_answer_to_a_complication_that_is_not_there_is_told_in_one_line_and_recorded() -> None:
     attempt = Attempt(attempt=NOTHING).go(30.0)
-    words = attempt.do(Answer.DRAIN)
+    words = attempt.do(Reaction.DRAIN)
     assert words == "place a chest drain: there is no complication"
     assert "\n" not in words
     kept = attempt.events[-1].data
@@ -250,7 +250,7 @@ def test_the_lung_bleeds_after_a_sample_about_the_needles_way() -> None:
     assert inside.blood_mm > 10.0
     np.testing.assert_allclose(inside.way_mm[1], TARGET - [0.0, 2.0, 0.0], atol=0.5)
     np.testing.assert_allclose(inside.way_mm[0], ENTRY + [0.0, 16.1, 0.0], atol=1.5)
-    assert "right" in attempt.do(Answer.TURN)
+    assert "right" in attempt.do(Reaction.TURN)
 
 
 def test_a_scan_keeps_what_it_showed() -> None:

@@ -25,7 +25,7 @@ ASPIRATE_FROM_MM: Final = 20.0
 DRAIN_FROM_MM: Final = 30.0
 
 
-class Answer(StrEnum):
+class Reaction(StrEnum):
     """What can be done."""
 
     GO_ON = "go_on"
@@ -37,16 +37,16 @@ class Answer(StrEnum):
 
 
 ANSWER_WORDS: Final = {
-    Answer.GO_ON: sentence("go on through the outer needle, and watch"),
-    Answer.ASPIRATE: sentence("withdraw into the pleural space and aspirate"),
-    Answer.TURN: sentence("turn the patient, puncture side down"),
-    Answer.OXYGEN: sentence("give oxygen"),
-    Answer.DRAIN: sentence("place a chest drain"),
-    Answer.STOP: sentence("stop and call for help"),
+    Reaction.GO_ON: sentence("go on through the outer needle, and watch"),
+    Reaction.ASPIRATE: sentence("withdraw into the pleural space and aspirate"),
+    Reaction.TURN: sentence("turn the patient, puncture side down"),
+    Reaction.OXYGEN: sentence("give oxygen"),
+    Reaction.DRAIN: sentence("place a chest drain"),
+    Reaction.STOP: sentence("stop and call for help"),
 }
 
 
-class Verdict(StrEnum):
+class AnswerWorth(StrEnum):
     """What an answer is worth."""
 
     RIGHT = "right"
@@ -65,7 +65,7 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class GuidelineRow:
     """One row of the table.
 
     Attributes:
@@ -82,40 +82,40 @@ class Row:
     kind: Kind
     severity: int
     words: str
-    right: frozenset[Answer]
-    helps: frozenset[Answer]
+    right: frozenset[Reaction]
+    helps: frozenset[Reaction]
     source: str
 
-    def verdict(self, answer: Answer) -> Verdict:
+    def verdict(self, answer: Reaction) -> AnswerWorth:
         """Return what an answer is worth."""
         if answer in self.right:
-            return Verdict.RIGHT
-        return Verdict.HELPS if answer in self.helps else Verdict.WRONG
+            return AnswerWorth.RIGHT
+        return AnswerWorth.HELPS if answer in self.helps else AnswerWorth.WRONG
 
 
-def _of(*answers: Answer) -> frozenset[Answer]:
+def _of(*answers: Reaction) -> frozenset[Reaction]:
     return frozenset(answers)
 
 
-SMALL: Final = Row(
+SMALL: Final = GuidelineRow(
     "small",
     Kind.PNEUMOTHORAX,
     1,
     sentence("pneumothorax of less than 20 mm, no symptoms"),
-    _of(Answer.GO_ON),
-    _of(Answer.OXYGEN, Answer.TURN, Answer.ASPIRATE, Answer.STOP),
+    _of(Reaction.GO_ON),
+    _of(Reaction.OXYGEN, Reaction.TURN, Reaction.ASPIRATE, Reaction.STOP),
     f"{KSTR}; {REVIEW}",
 )
-MEDIUM: Final = Row(
+MEDIUM: Final = GuidelineRow(
     "medium",
     Kind.PNEUMOTHORAX,
     2,
     sentence("pneumothorax of 20 mm or more"),
-    _of(Answer.ASPIRATE),
-    _of(Answer.OXYGEN, Answer.TURN, Answer.DRAIN, Answer.STOP),
+    _of(Reaction.ASPIRATE),
+    _of(Reaction.OXYGEN, Reaction.TURN, Reaction.DRAIN, Reaction.STOP),
     f"{REVIEW}; {CHAN}",
 )
-LARGE: Final = Row(
+LARGE: Final = GuidelineRow(
     "large",
     Kind.PNEUMOTHORAX,
     3,
@@ -123,26 +123,26 @@ LARGE: Final = Row(
         "pneumothorax of 30 mm or more, or one with a saturation below 92 %, or one that came back "
         "after aspiration"
     ),
-    _of(Answer.DRAIN),
-    _of(Answer.OXYGEN, Answer.ASPIRATE, Answer.STOP),
+    _of(Reaction.DRAIN),
+    _of(Reaction.OXYGEN, Reaction.ASPIRATE, Reaction.STOP),
     f"{REVIEW}; {CHAN}",
 )
-BLOOD: Final = Row(
+BLOOD: Final = GuidelineRow(
     "blood",
     Kind.BLEEDING,
     1,
     sentence("blood about the needle's way, none coughed"),
-    _of(Answer.GO_ON),
-    _of(Answer.OXYGEN, Answer.TURN, Answer.STOP),
+    _of(Reaction.GO_ON),
+    _of(Reaction.OXYGEN, Reaction.TURN, Reaction.STOP),
     f"{KSTR}; {TAI}",
 )
-MORE_BLOOD: Final = Row(
+MORE_BLOOD: Final = GuidelineRow(
     "more_blood",
     Kind.BLEEDING,
     2,
     sentence("blood coughed, or more than 2 cm about the needle's way"),
-    _of(Answer.TURN, Answer.STOP),
-    _of(Answer.OXYGEN),
+    _of(Reaction.TURN, Reaction.STOP),
+    _of(Reaction.OXYGEN),
     f"{KSTR}; {TAI}",
 )
 
@@ -151,7 +151,7 @@ TABLE: Final = (SMALL, MEDIUM, LARGE, BLOOD, MORE_BLOOD)
 ROWS: Final = {row.name: row for row in TABLE}
 
 
-def row_of_air(rim_mm: float, has_symptoms: bool, in_vain: bool) -> Row:
+def row_of_air(rim_mm: float, has_symptoms: bool, in_vain: bool) -> GuidelineRow:
     """Return the row of a pneumothorax.
 
     Args:
@@ -164,6 +164,6 @@ def row_of_air(rim_mm: float, has_symptoms: bool, in_vain: bool) -> Row:
     return MEDIUM if rim_mm >= ASPIRATE_FROM_MM else SMALL
 
 
-def row_of_blood(higher: bool, coughs: bool) -> Row:
+def row_of_blood(higher: bool, coughs: bool) -> GuidelineRow:
     """Return the row of a bleeding, by its grade and whether blood is coughed."""
     return MORE_BLOOD if higher or coughs else BLOOD

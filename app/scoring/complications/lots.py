@@ -56,9 +56,9 @@ class Lots:
             if not (isinstance(value, float) and isfinite(value) and 0.0 <= value < 1.0):
                 raise ScoringError(
                     sentence(
-                        "lot {name} is {value!r}; it must lie between 0 and 1",
+                        "lot {name} is {drawn!r}; it must lie between 0 and 1",
                         name=one.name,
-                        value=value,
+                        drawn=value,
                     )
                 )
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
-from app.scoring.complications.answers import Kind, Verdict
+from app.scoring.complications.answers import AnswerWorth, Kind
 from app.scoring.errors import TrajectoryError
 
 TIME_TO_ACT_S: Final = 30.0
@@ -58,7 +58,7 @@ class Given:
 
     time: float
     answer: str
-    verdict: Verdict
+    verdict: AnswerWorth
     kind: Kind | None = None
 
 
@@ -110,7 +110,7 @@ class ComplicationMarks:
         Right at once 1, right after another answer a half, one that helps a half, else 0.
         """
         found = [value for value in map(self._worth, self.demands) if value is not None]
-        found += [0.0 for one in self.given if one.verdict is Verdict.NOTHING_THERE]
+        found += [0.0 for one in self.given if one.verdict is AnswerWorth.NOTHING_THERE]
         return tuple(found)
 
     def fallen(self, time: float) -> FloatArray | None:
@@ -123,7 +123,11 @@ class ComplicationMarks:
         return np.array(place) if any(place) else None
 
     def _worth(self, demand: Demand) -> float | None:
-        later = [one.time for one in self.demands if self._follows(one, demand)]
+        later = [
+            other.time
+            for other in self.demands
+            if other.kind is demand.kind and other.time > demand.time
+        ]
         end = min(later, default=self.until)
         answers = [
             one for one in self.given if one.kind is demand.kind and demand.time <= one.time <= end
@@ -132,13 +136,9 @@ class ComplicationMarks:
             return None if end - demand.time < TIME_TO_ACT_S else 0.0
         return _worth_of([one.verdict for one in answers])
 
-    @staticmethod
-    def _follows(one: Demand, demand: Demand) -> bool:
-        return one.kind is demand.kind and one.time > demand.time
 
-
-def _worth_of(verdicts: Sequence[Verdict]) -> float:
-    if verdicts[0] is Verdict.RIGHT:
+def _worth_of(verdicts: Sequence[AnswerWorth]) -> float:
+    if verdicts[0] is AnswerWorth.RIGHT:
         return 1.0
-    helps = Verdict.RIGHT in verdicts or Verdict.HELPS in verdicts
+    helps = AnswerWorth.RIGHT in verdicts or AnswerWorth.HELPS in verdicts
     return 0.5 if helps else 0.0

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QComboBox, QPushButton, QVBoxLayout, QWidget
 
-from app.scoring.complications.answers import ANSWER_WORDS, Answer
+from app.scoring.complications.answers import ANSWER_WORDS, Reaction
 from app.session.complications import ComplicationsState
 from app.views.kit import theme
 from app.views.kit.parts import FittingButton, PlainLabel
@@ -18,7 +18,7 @@ class ComplicationPanel(QWidget):
 
     Signals:
         noticed(): something is wrong.
-        answered(Answer): this is done about it.
+        answered(Reaction): this is done about it.
     """
 
     noticed = Signal()
@@ -27,7 +27,7 @@ class ComplicationPanel(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._shown: tuple[ComplicationsState | None, bool] = None, False
-        self.vitals, self.told = PlainLabel(self), PlainLabel(self)
+        self.vitals, self.given = PlainLabel(self), PlainLabel(self)
         self.notice, self.answer = _button(), _button()
         self.choice = QComboBox(self)
         self._keys: list[tuple[QShortcut, QPushButton]] = []
@@ -55,8 +55,8 @@ class ComplicationPanel(QWidget):
         if state is None:
             return
         self.vitals.setText(translated(state.vitals.sentence))
-        self.told.setText("\n".join(translated(answer) for answer in state.answers))
-        self.told.setVisible(bool(state.answers))
+        self.given.setText("\n".join(translated(answer) for answer in state.answers))
+        self.given.setVisible(bool(state.answers))
 
     def _enable(self, can_be: bool) -> None:
         for widget in (self.notice, self.answer, self.choice):
@@ -66,7 +66,7 @@ class ComplicationPanel(QWidget):
 
     def _prepare(self) -> None:
         self.vitals.setWordWrap(True)
-        self.told.setWordWrap(True)
+        self.given.setWordWrap(True)
         self.vitals.setToolTip(tr("What the monitor shows, and what the patient says"))
         self.notice.setText(tr("Something is wrong (Shift+J)"))
         self.notice.setToolTip(literal(tr("Say it as soon as you see it: the time counts")))
@@ -75,7 +75,7 @@ class ComplicationPanel(QWidget):
         self.choice.setAccessibleName(tr("What is to be done"))
         self.choice.setToolTip(tr("What is to be done about a complication, by its size"))
         self.choice.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        for answer in Answer:
+        for answer in Reaction:
             self.choice.addItem(translated(ANSWER_WORDS[answer]), answer)
         self.notice.clicked.connect(self.noticed)
         self.answer.clicked.connect(lambda: self.answered.emit(self.choice.currentData()))
@@ -92,7 +92,7 @@ class ComplicationPanel(QWidget):
         column.setSpacing(4)
         title = PlainLabel(tr("Patient"), self)
         title.setProperty("role", "heading")
-        for widget in (title, self.vitals, self.notice, self.choice, self.answer, self.told):
+        for widget in (title, self.vitals, self.notice, self.choice, self.answer, self.given):
             column.addWidget(widget)
 
 

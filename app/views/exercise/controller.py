@@ -18,7 +18,7 @@ from app.core.units import MILLIMETRE
 from app.exercises.parts import ViewName
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
-from app.scoring.complications.answers import Answer
+from app.scoring.complications.answers import Reaction
 from app.session.display_load import BusyWatch, WorldPace
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
@@ -537,7 +537,7 @@ class ExerciseController(QObject):
         """Say that something is wrong with the patient."""
         self._respond(lambda trainer: trainer.notice())
 
-    def answer(self, answer: Answer) -> None:
+    def answer(self, answer: Reaction) -> None:
         """Answer a complication."""
         self._respond(lambda trainer: trainer.answer(answer))
 
