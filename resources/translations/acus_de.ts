@@ -22815,10 +22815,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>{name!r} ist kein Faktor; es gibt {names}</translation>
         </message>
         <message>
-            <source>lot {name} is {value!r}; it must lie between 0 and 1</source>
-            <translation>Los {name} ist {value!r}; es muss zwischen 0 und 1 liegen</translation>
-        </message>
-        <message>
             <source>a complication of the attempt: a number is not finite</source>
             <translation>eine Komplikation des Versuchs: eine Zahl ist nicht endlich</translation>
         </message>
@@ -23053,6 +23049,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
             <translation type="unfinished" />
+        </message>
+        <message>
+            <source>lot {name} is {drawn!r}; it must lie between 0 and 1</source>
+            <translation>Los {name} ist {drawn!r}; es muss zwischen 0 und 1 liegen</translation>
         </message>
     </context>
 </TS>

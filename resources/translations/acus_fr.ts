@@ -22815,10 +22815,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>{name!r} n’est pas un facteur ; il y a {names}</translation>
         </message>
         <message>
-            <source>lot {name} is {value!r}; it must lie between 0 and 1</source>
-            <translation>le tirage {name} vaut {value!r} ; il doit être entre 0 et 1</translation>
-        </message>
-        <message>
             <source>a complication of the attempt: a number is not finite</source>
             <translation>une complication de l’essai : un nombre n’est pas fini</translation>
         </message>
@@ -23053,6 +23049,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
             <translation type="unfinished" />
+        </message>
+        <message>
+            <source>lot {name} is {drawn!r}; it must lie between 0 and 1</source>
+            <translation>le tirage {name} vaut {drawn!r} ; il doit être entre 0 et 1</translation>
         </message>
     </context>
 </TS>
