@@ -7,7 +7,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer
 from app.commands.reader_language import language, local, tell
-from app.core.messages import joined, sentence
+from app.core.messages import joined, listed, sentence
 
 _TICK_NS = 1e9 / 1000.0
 
@@ -116,6 +116,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
                     scale=-scale,
                 )
             )
+    lines += complication_lines(document["complications"])
     for line in document["pass_lines"]:
         lines.append(
             sentence(
@@ -129,6 +130,33 @@ def _lines(document: dict[str, Any]) -> list[str]:
         lines.append(
             sentence("\n  refused {kind}: {reason}", kind=file["kind"], reason=file["reason"])
         )
+    return lines
+
+
+def complication_lines(document: dict[str, Any] | None) -> list[str]:
+    """Return what can happen to the patient, and how likely; nothing where nothing can."""
+    if document is None:
+        return []
+    from app.scoring.complications.factors import FACTORS
+
+    known = [factor.words for factor in FACTORS if document["facts"].get(factor.name)]
+    unknown = [factor.words for factor in FACTORS if factor.name in document["not_known"]]
+    lines: list[str] = [
+        sentence(
+            "\n  complications, by lot at published odds: pneumothorax {air:.0f} % of a needle "
+            "along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %",
+            air=100.0 * document["pneumothorax"],
+            drain=100.0 * document["drain_share"],
+            blood=100.0 * document["bleeding"],
+        )
+    ]
+    if known:
+        lines.append(sentence("    it has: {factors}", factors=listed(known)))
+    if unknown:
+        lines.append(
+            sentence("    not known, as in the case mix: {factors}", factors=listed(unknown))
+        )
+    lines += [sentence("    {source}", source=source) for source in document["sources"]]
     return lines
 
 

@@ -22,7 +22,12 @@ from app.exercises.scene import (
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
 from app.mechanisms.profile import DeviceProfile
+from app.scoring.complications.course import BLEEDS, DRAINED
+from app.scoring.complications.factors import FACTOR_NAMES
+from app.scoring.complications.risk import calibrated
+from app.scoring.odds import HUO, ZHU
 from app.scoring.pass_line import pass_lines
+from app.session.complications import ComplicationCase, along_the_plan
 from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
 
@@ -53,6 +58,7 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     document["touch"] = _touch(exercise, profile)
+    document["complications"] = _complications(exercise, patient)
     document["pass_lines"] = pass_lines(exercise.tolerances)
     return document
 
@@ -70,6 +76,24 @@ def _touch(exercise: Exercise, profile: DeviceProfile) -> dict[str, Any] | None:
         "scales": [] if task is None else [handle.scale(plan.length) for plan in task.plans],
         "radius_mm": exercise.touch.radius_mm,
         "dwell_s": exercise.touch.dwell_s,
+    }
+
+
+def _complications(exercise: Exercise, patient: ExercisePatient) -> dict[str, Any] | None:
+    """Return what can happen, and how likely to a needle along the plan; None where nothing can."""
+    case = ComplicationCase.of(exercise, patient.placed, patient.field)
+    if case is None:
+        return None
+    facts = along_the_plan(case)
+    air = facts is not None and case.part.pneumothorax
+    bleeds = case.part.bleeding
+    return {
+        "pneumothorax": calibrated().probability(facts) if air and facts is not None else 0.0,
+        "drain_share": DRAINED,
+        "bleeding": BLEEDS if bleeds else 0.0,
+        "facts": {} if facts is None else facts.document(),
+        "not_known": [] if facts is None else [n for n in FACTOR_NAMES if n not in facts.known],
+        "sources": [HUO, ZHU],
     }
 
 

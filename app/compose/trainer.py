@@ -313,6 +313,7 @@ def _build_rig(
         beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
         simulated=robot is None and real is None,
         by_program=setup.by_program,
+        scripted=setup.skill or "",
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 

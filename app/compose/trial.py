@@ -48,10 +48,12 @@ from app.core.parameters import Stage
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Table
+from app.exercises.guidance import Purpose
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
 from app.scoring.met import Met
 from app.scoring.procedure import ProcedureMarks
+from app.session.complications import ComplicationCase
 from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
 from app.session.machine import State
@@ -62,6 +64,7 @@ from app.session.procedure import marks_of
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
+from app.session.scripted_answers import ScriptedPatient
 from app.session.scripted_steps import steps_of_rows
 from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
@@ -210,6 +213,7 @@ class Trials:
         self._scorer = scorer(exercise)
         asks_lung = exercise.asks_lung_path
         self._planned = judged_plan_of(placed, tissues, asks_lung) if exercise.is_own_plan else None
+        self._case = ComplicationCase.of(exercise, placed, tissues)
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
         self._pulls = self._task is not None and bool(exercise.laws)
@@ -235,7 +239,7 @@ class Trials:
         played = named(find_skill(skill).name, self._script)
         trainee = trainee_of(self._exercise, self._aimed, played, seed, self._tissues)
         rows, begin = self._rows(trainee, seed)
-        trial = self._judged(rows, begin, self._exercise.assistance)
+        trial = self._judged(rows, begin, self._exercise.assistance, played, seed)
         if trial is not None:
             return trial
         if self._only_here:
@@ -262,7 +266,9 @@ class Trials:
         of_trainer = self._risks, False, self._tissues, self._script
         return attempt(self._exercise, self._placed, skill, seed, *of_trainer, *of_hand)
 
-    def _judged(self, rows: FloatArray, begin: float, dial: float) -> Trial | None:
+    def _judged(
+        self, rows: FloatArray, begin: float, dial: float, skill: str = "", seed: int = 0
+    ) -> Trial | None:
         """Score an attempt by its rows; None where only a trainer can judge it."""
         samples = self._samples(rows)
         faults = rows[rows[:, sv.TIME] > begin + GRACE, sv.FAULT]
@@ -281,19 +287,26 @@ class Trials:
             touches=went.touches,
             met=met,
             planned=self._planned,
-            procedure=self._steps(samples, rows, met),
+            procedure=self._steps(samples, rows, met, skill, seed),
         )
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
     def _steps(
-        self, samples: Samples, rows: FloatArray, met: tuple[Met, ...] | None
+        self,
+        samples: Samples,
+        rows: FloatArray,
+        met: tuple[Met, ...] | None,
+        skill: str,
+        seed: int,
     ) -> ProcedureMarks | None:
         part = self._exercise.procedure
         if part is None:
             return None
         phases = rows[:, sv.TRAINEE_PHASE]
-        events = steps_of_rows(part, samples, phases, self._placed, self._tissues)
-        return marks_of(events, samples, met)
+        is_assessment = self._exercise.purpose is Purpose.ASSESSMENT
+        patient = ScriptedPatient.of(self._case, skill, 0 if is_assessment else seed)
+        events = steps_of_rows(part, samples, phases, self._placed, self._tissues, patient)
+        return marks_of(events, samples, met, self._placed)
 
     def truth(self, rows: FloatArray) -> Samples:
         """Return the needle as it truly was at each look, whatever the cameras saw of it."""

@@ -17,6 +17,7 @@ from app.planning.sampling import Throw
 OF_PROCEDURES: Final = {
     "anaesthetic": frozenset({"anaesthetic_gap", "pierced_by_anaesthetic"}),
     "biopsy": frozenset({"diagnostic_samples", "lesion_in_sample", "throw_hits", "hub_open_time"}),
+    "complications": frozenset({"complication_noticed", "complication_answer"}),
 }
 """Metrics that a part of the procedure alone can give."""
 
@@ -94,16 +95,40 @@ class BiopsyPart(Strict):
         return self.throws[number].throw(0.5 * self.core_mm)
 
 
+class ComplicationsPart(Strict):
+    """Complications that happen by lot, at published odds given what is done.
+
+    Attributes:
+        emphysema: whether the patient has it; None where that is not known.
+        pneumothorax: whether one can happen.
+        bleeding: whether the lung can bleed.
+    """
+
+    emphysema: bool | None = None
+    pneumothorax: bool = True
+    bleeding: bool = True
+
+    @model_validator(mode="after")
+    def _something_can_happen(self) -> ComplicationsPart:
+        if not (self.pneumothorax or self.bleeding):
+            raise ValueError(
+                sentence("neither pneumothorax nor bleeding can happen: leave complications out")
+            )
+        return self
+
+
 class ProcedurePart(Strict):
     """What belongs to the intervention; None for each step that the exercise does without.
 
     Attributes:
         anaesthetic: local anaesthetic first, by a needle of its own.
         biopsy: samples through a coaxial needle.
+        complications: what can happen to the lung, and has to be noticed and answered.
     """
 
     anaesthetic: AnaestheticPart | None = None
     biopsy: BiopsyPart | None = None
+    complications: ComplicationsPart | None = None
 
     @model_validator(mode="after")
     def _asks_for_something(self) -> ProcedurePart:

@@ -290,6 +290,14 @@ class Exercise(Strict):
             )
         if self.procedure is not None and self.touch is not None:
             raise ValueError(sentence("procedure: a tool that touches targets takes no steps"))
+        happens = self.procedure is not None and self.procedure.complications is not None
+        if happens and self.guidance_mode is not GuidanceMode.CONTROL_CT:
+            raise ValueError(
+                sentence(
+                    "procedure: complications are seen in control scans, and live pictures are of "
+                    "the patient before: use guidance.mode: control_ct"
+                )
+            )
         return self
 
     @model_validator(mode="after")

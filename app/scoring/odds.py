@@ -38,6 +38,13 @@ AGAIN_OR, DEEP_OR, EMPHYSEMA_OR, FISSURE_OR, BULLA_OR, THICK_OR = 2.43, 2.38, 3.
 """Odds ratios of pneumothorax (HUO): more than one pleural puncture against one; a lesion 3 cm deep
 or more; emphysema; a fissure, a bulla crossed; needles of 18 G or thicker against thinner ones."""
 
+SMALL_OR, FREE_OR = 2.09, 1.73
+"""Odds ratios of pneumothorax (HUO): lesions smaller than 4 cm; lesions without pleural contact."""
+
+ON_BACK_OR, UPWARDS_SUPINE_OR, UPWARDS_PRONE_OR = 3.15, 2.28, 3.20
+"""Odds ratios of pneumothorax by position (HUO): supine or prone against the biopsied lung lying
+down; the biopsied lung lying up against supine; the same against prone."""
+
 DEEP_MM: Final = 30.0
 """From here on a lesion counts as deep in HUO; here by the aerated lung on the way to it."""
 

@@ -7,6 +7,7 @@ from math import isfinite
 
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
+from app.scoring.complications.marks import ComplicationMarks
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import BY_TIP, Met
 
@@ -69,6 +70,7 @@ class ProcedureMarks:
         needle_from: moment from which the needle of the exercise itself was held [s]; None where it
             was from the beginning.
         met_before: what the needle for local anaesthetic met.
+        complications: that happened, and what was done about them; None where none can.
     """
 
     deposits: tuple[Deposit, ...] = ()
@@ -76,6 +78,7 @@ class ProcedureMarks:
     open_s: float = 0.0
     needle_from: float | None = None
     met_before: tuple[Met, ...] = ()
+    complications: ComplicationMarks | None = None
 
     @property
     def pierced(self) -> tuple[Met, ...]:

@@ -15,6 +15,7 @@ from app.core.messages import sentence
 from app.planning.judged import JudgedPlan
 from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
+from app.scoring.complications.marks import ComplicationMarks
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
 from app.scoring.met import Met
 from app.scoring.procedure import ProcedureMarks
@@ -255,6 +256,16 @@ class Trajectory:
             raise MetricNotAskedError(sentence("the exercise asks for no steps of a procedure"))
         return self.procedure
 
+    def complications(self) -> ComplicationMarks:
+        """Return the complications of the intervention.
+
+        Raises:
+            MetricNotAskedError: if none can happen in the exercise.
+        """
+        if self.procedure is None or self.procedure.complications is None:
+            raise MetricNotAskedError(sentence("no complication can happen in this exercise"))
+        return self.procedure.complications
+
     def to_touch(self) -> Touches:
         """Return the targets that were to be touched.
 
@@ -310,10 +321,21 @@ class Trajectory:
         return body
 
     def target(self, index: int) -> FloatArray:
-        """Return where the target is at a sample [m], shape (3,): at rest plus its displacement."""
-        if self.target_shift is None:
-            return self.placed.p_target
-        return self.placed.p_target + self.target_shift[index]
+        """Return where the target is at a sample [m], shape (3,): at rest plus its displacement.
+
+        Where a control scan showed it fallen back with the lung, the nearer to the tip of the two
+        places: no lot costs anybody.
+        """
+        place = self.placed.p_target
+        if self.target_shift is not None:
+            place = place + self.target_shift[index]
+        marks = None if self.procedure is None else self.procedure.complications
+        fallen = None if marks is None else marks.fallen(float(self.time[index]))
+        if fallen is None:
+            return place
+        tip = self.tip[index]
+        other = np.asarray(place + fallen)
+        return other if np.linalg.norm(tip - other) < np.linalg.norm(tip - place) else place
 
     def offset(self, index: int) -> Offset:
         """Return how far the needle of a sample is from the target and off the path, as they were

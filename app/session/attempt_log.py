@@ -137,7 +137,7 @@ class AttemptLog:
                 computer=waited_for_computer(self.events),
                 seen_from=seen_from(attached),
                 planned=planned,
-                procedure=marks_of(self.events, samples, met),
+                procedure=marks_of(self.events, samples, met, self.placed),
             )
             score = self.scorer(path)
         except AcusError as error:

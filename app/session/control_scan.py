@@ -17,6 +17,7 @@ from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
+from app.imaging.inside import Inside
 from app.imaging.scan_order import ScanNeedle, ScanOrder, Seen, seen
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import TrajectoryError
@@ -46,6 +47,7 @@ class ControlScan:
         shift_mm: how far breathing had moved the target, LPS, shape (3,), read-only.
         dose: notional dose-length product [mGy·cm]: a teaching estimate.
         streak: whether its pictures show the metal's streak.
+        inside: what complications have changed in the patient; None for nothing.
     """
 
     number: int
@@ -55,6 +57,14 @@ class ControlScan:
     shift_mm: FloatArray
     dose: float
     streak: bool = False
+    inside: Inside | None = None
+
+    @property
+    def tissue_range_mm(self) -> tuple[float, float]:
+        """Return LPS z of the tissue that the slices show, where it would rest."""
+        low, high = self.order.range_mm
+        moved = float(self.shift_mm[2])
+        return low - moved, high - moved
 
     @property
     def seen(self) -> Seen:
@@ -64,22 +74,27 @@ class ControlScan:
     def data(self) -> dict[str, object]:
         """JSON-ready values for the event; `of` reads them back to the last bit."""
         order, bent = self.order, self.needle.corners_mm
-        return {
-            "version": VERSION,
-            "order": {
-                "centre_mm": order.centre_mm,
-                "slices": order.slices,
-                "slice_mm": order.slice_mm,
-            },
-            "range_mm": list(order.range_mm),
-            "streak": self.streak,
-            "seen": self.seen.value,
-            "dose_mgy_cm": self.dose,
-            "dose_note": str(TEACHING_ESTIMATE),
-            "hub_lps_mm": self.needle.hub_mm.tolist(),
-            "tip_lps_mm": self.needle.tip_mm.tolist(),
-            "shift_lps_mm": self.shift_mm.tolist(),
-        } | ({} if bent is None else {"bent_lps_mm": bent.tolist()})
+        inside = {} if self.inside is None else {"inside": self.inside.document()}
+        return (
+            inside
+            | {
+                "version": VERSION,
+                "order": {
+                    "centre_mm": order.centre_mm,
+                    "slices": order.slices,
+                    "slice_mm": order.slice_mm,
+                },
+                "range_mm": list(order.range_mm),
+                "streak": self.streak,
+                "seen": self.seen.value,
+                "dose_mgy_cm": self.dose,
+                "dose_note": str(TEACHING_ESTIMATE),
+                "hub_lps_mm": self.needle.hub_mm.tolist(),
+                "tip_lps_mm": self.needle.tip_mm.tolist(),
+                "shift_lps_mm": self.shift_mm.tolist(),
+            }
+            | ({} if bent is None else {"bent_lps_mm": bent.tolist()})
+        )
 
     @classmethod
     def of(cls, event: Event) -> ControlScan | None:
@@ -101,6 +116,7 @@ class ControlScan:
                 frozen(data["shift_lps_mm"], (3,), "shift_lps_mm"),
                 float(data["dose_mgy_cm"]),
                 data["streak"] is True,
+                None if data.get("inside") is None else Inside.of(data["inside"]),
             )
         except (AcusError, LookupError, TypeError, ValueError):
             return None  # of a damaged record; the scan is still counted
@@ -142,6 +158,7 @@ def take(
     look: Observation | None,
     placed: PlacedPlan,
     streak: bool = False,
+    inside: Inside | None = None,
 ) -> ControlScan:
     """Take a scan at `now` [s].
 
@@ -153,6 +170,7 @@ def take(
         look: newest observation of robot and cameras.
         placed: the plan, for where the patient lies.
         streak: whether its pictures show the metal's streak.
+        inside: what complications have changed in the patient.
 
     Raises:
         ScanNotPossibleError: if nobody knows where the needle is: a picture would be a guess.
@@ -182,6 +200,7 @@ def take(
         frozen(moved / MILLIMETRE, (3,), "shift"),
         dose,
         streak,
+        inside,
     )
 
 

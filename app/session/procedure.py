@@ -28,13 +28,14 @@ from app.planning.sampling import AtRest, SamplePlan, core, plan_sample
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
 from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
+from app.session.complications import marks_of_complications
 from app.session.errors import ProcedureNotPossibleError
+from app.session.needle_now import NeedleNow
 from app.session.samples import Samples
 from app.simulation.bound_field import BoundField
 
 if TYPE_CHECKING:
     from app.exercises.procedure import ProcedurePart
-    from app.session.observation import Observation
 
 KIND: Final = "procedure"
 """Kind of the event."""
@@ -169,33 +170,6 @@ class ProcedureState:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class NeedleNow:
-    """The needle at a moment, in world.
-
-    Attributes:
-        p_tip: tip [m], shape (3,).
-        tip_axis: direction in which it goes on, shape (3,).
-        depth: of the tip [m].
-        p_target: target now [m], shape (3,).
-        measured: whether the cameras vouch for it.
-    """
-
-    p_tip: FloatArray
-    tip_axis: FloatArray
-    depth: float
-    p_target: FloatArray
-    measured: bool
-
-    @classmethod
-    def of(cls, look: Observation | None) -> NeedleNow | None:
-        """Return that of an observation; None without one."""
-        if look is None:
-            return None
-        pose = look.pose
-        return cls(pose.p_tip, pose.tip_axis, pose.depth, look.p_target, pose.measured)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class _Needle:
     """The needle in the patient, LPS [mm], and where the tissue about it rests."""
 
@@ -205,6 +179,7 @@ class _Needle:
     target_mm: FloatArray
     target_now_mm: FloatArray
     at_rest: AtRest
+    fallen_mm: FloatArray | None = None
 
     @property
     def aside_mm(self) -> float:
@@ -267,11 +242,14 @@ def perform(
 
 
 def marks_of(
-    events: Sequence[Event], samples: Samples, met: tuple[Met, ...] | None
+    events: Sequence[Event],
+    samples: Samples,
+    met: tuple[Met, ...] | None,
+    placed: PlacedPlan | None = None,
 ) -> ProcedureMarks | None:
     """Return what scoring sees of the steps; None where the record has none.
 
-    Damaged events are left out.
+    Damaged events are left out; without `placed`, complications are.
     """
     steps = [(event, _step(event)) for event in events if event.kind == KIND]
     if not steps:
@@ -306,8 +284,11 @@ def marks_of(
     if begins and needle_from is None:
         needle_from = np.inf  # it was never taken
     before = tuple(one for one in met or () if needle_from is not None and one.time < needle_from)
+    happened = None
+    if placed is not None and len(samples.time):
+        happened = marks_of_complications(events, placed, float(samples.time[-1]))
     return ProcedureMarks(
-        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before
+        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before, happened
     )
 
 
@@ -404,6 +385,7 @@ def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | Non
         to_patient @ placed.p_target / MILLIMETRE,
         to_patient @ (placed.p_target + shift) / MILLIMETRE,
         at_rest,
+        look.fallen_mm,
     )
 
 
@@ -438,15 +420,14 @@ def _sample(
         )
     chosen = biopsy.throw(throw)
     try:
-        taken = core(
-            field,
-            needle.tip_mm,
-            needle.way,
-            chosen,
-            needle.target_mm,
-            notch_deg,
-            needle.at_rest,
-        )
+        tips = [needle.tip_mm]
+        if needle.fallen_mm is not None:  # or where the last scan showed the lesion: the better
+            tips.append(needle.tip_mm - needle.fallen_mm)
+        cores = [
+            core(field, tip, needle.way, chosen, needle.target_mm, notch_deg, needle.at_rest)
+            for tip in tips
+        ]
+        taken = max(cores, key=lambda one: one.lesion_mm)
     except PlanError as error:
         raise ProcedureNotPossibleError(str(error)) from error
     mark = SampleMark(

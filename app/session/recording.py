@@ -111,7 +111,7 @@ class Recording:
             computer=waited_for_computer(self.events),
             seen_from=seen_from(self.attachments),
             planned=judged_plan(self.events),
-            procedure=marks_of(self.events, self.samples, met),
+            procedure=marks_of(self.events, self.samples, met, self.placed_plan()),
         )
 
     def placed_plan(self) -> PlacedPlan:

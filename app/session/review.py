@@ -30,11 +30,13 @@ from app.scoring.tolerance import Bands
 from app.session.along_path import AlongPath
 from app.session.attempt_clock import AttemptClock
 from app.session.calibration_flag import CalibrationFlags
+from app.session.complications import KIND as COMPLICATION
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, at_rest, curves
 from app.session.drill_choice import drill_for, exercise_in
 from app.session.errors import SessionError
+from app.session.header import TISSUE_FILE
 from app.session.motion import NeedleMotion, motion, needle_length
 from app.session.needle import FROM_CAMERAS
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
@@ -204,6 +206,9 @@ class Review:
         tolerances: of the attempt's exercise, by metric; those left out are the default's.
         reasons: metric -> sentences that say why it cost points; those left out cost none, or the
             record does not tell.
+        tissue: field of the patient's tissue as the record holds it, where a scan shows what has
+            changed in the patient; else empty.
+        complications: events of complications, those among them of which nobody was told then.
         planned: what a planner says of the student's own path; None where it was given.
         drill: what it was a drill of; None for a whole exercise.
         practise: the drill that it calls for; None where it calls for none.
@@ -230,6 +235,8 @@ class Review:
     tip_radius: float | None = None
     renders: bool = True
     control_scans: tuple[ControlScan, ...] = ()
+    tissue: bytes = b""
+    complications: tuple[Event, ...] = ()
     origin: float = 0.0
     clock: AttemptClock | None = None
     ct: CtFacts = UNKNOWN_CT
@@ -359,7 +366,9 @@ def review(recording: Recording) -> Review:
         measured_force=samples.measured if np.isfinite(samples.measured).any() else None,
         tip_radius=samples.tip_radius(),
         renders=renders_force(recording.metadata),
-        control_scans=recording.control_scans(),
+        control_scans=(scans := recording.control_scans()),
+        tissue=_tissue(recording) if any(scan.inside for scan in scans) else b"",
+        complications=tuple(event for event in recording.events if event.kind == COMPLICATION),
         origin=origin,
         clock=clock,
         ct=recording.ct,
@@ -375,6 +384,10 @@ def review(recording: Recording) -> Review:
         drill=None if exercise is None else exercise.drill,
         practise=drill_for(score, past, exercise),
     )
+
+
+def _tissue(recording: Recording) -> bytes:
+    return recording.attachments.get(TISSUE_FILE, b"")
 
 
 def _withheld(recording: Recording) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Final
 
+from app.core.arrays import FloatArray
 from app.core.events import Event, EventQueue
 from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.imaging.field import TissueField
+from app.imaging.inside import Inside
 from app.imaging.scan_order import ScanOrder
 from app.session import control_scan, machine, procedure
 from app.session.abort_reasons import abort_words
@@ -16,8 +18,9 @@ from app.session.errors import IllegalTransitionError, ProcedureNotPossibleError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
 from app.session.needle import DepthSource, NeedlePose
+from app.session.needle_now import NeedleNow
 from app.session.observation import Observation
-from app.session.procedure import NeedleNow, ProcedureState, Step
+from app.session.procedure import ProcedureState, Step
 from app.session.result import AttemptResult
 from app.session.snapshot import DRAWN_LATE
 from app.session.transitions import (
@@ -121,6 +124,11 @@ class RunningAttempt:
     def counts(self) -> bool:
         """Return whether an attempt has begun and not ended."""
         return self.attempt.running and not self.withdrawing
+
+    @property
+    def acts(self) -> bool:
+        """Return whether something can be done in an attempt: it runs and does not wait."""
+        return self.counts and not self.paused
 
     @property
     def pause_words(self) -> str:
@@ -228,10 +236,12 @@ class RunningAttempt:
         order: ScanOrder | None = None,
         dose: float = 0.0,
         streak: bool = False,
+        inside: Inside | None = None,
     ) -> int:
         """Take a control scan at `now` [s]; without an order it is only counted.
 
-        `dose` is notional, of the whole scan [mGy·cm]; `streak` whether the metal leaves one.
+        `dose` is notional, of the whole scan [mGy·cm]; `streak` whether the metal leaves one;
+        `inside` what complications have changed in the patient.
 
         Raises:
             IllegalTransitionError: if no attempt is running.
@@ -248,7 +258,7 @@ class RunningAttempt:
         data: dict[str, object] = {"number": number}
         if order is not None:
             data |= control_scan.take(
-                number, order, dose, now, seen, self.log.placed, streak
+                number, order, dose, now, seen, self.log.placed, streak, inside
             ).data()
         self.log.scans = number
         if seen is not None and seen.pose.valid:
@@ -265,21 +275,25 @@ class RunningAttempt:
         field: TissueField | None,
         throw: int = 0,
         notch_deg: float = 0.0,
+        fallen_mm: FloatArray | None = None,
     ) -> ProcedureState:
         """Do a step of the procedure at `now` [s]; see `procedure.perform`.
+
+        `fallen_mm`: how far the last control scan showed the target displaced, LPS.
 
         Raises:
             ProcedureNotPossibleError: says why; nothing has changed then.
         """
-        if state is None or self.log is None or not self.counts or self.paused:
+        if state is None or self.log is None or not self.acts:
             raise ProcedureNotPossibleError(
                 sentence(
                     "no step of a procedure is possible now: begin an attempt at an exercise that "
                     "asks for it"
                 )
             )
+        needle = NeedleNow.of(seen, fallen_mm)
         state, words, data = procedure.perform(
-            state, step, NeedleNow.of(seen), self.log.placed, field, throw, notch_deg, now
+            state, step, needle, self.log.placed, field, throw, notch_deg, now
         )
         self.say(procedure.KIND, words, now, data)
         return state
@@ -315,6 +329,11 @@ class RunningAttempt:
         self.events.put(event)
         if self.log is not None:
             self.log.event(event)
+
+    def keep(self, kind: str, message: str, now: float, data: dict[str, object]) -> None:
+        """Record that something happened of which nobody is told now."""
+        if self.log is not None:
+            self.log.event(Event(now, kind, message, data))
 
     def _change(self, event: machine.AttemptEvent, now: float) -> None:
         paused, cause = self.paused, self._pauses.cause or PauseCause.CAMERAS

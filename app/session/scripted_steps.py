@@ -20,14 +20,16 @@ from app.imaging.field import TissueField
 from app.planning.placement import PlacedPlan
 from app.session.errors import ProcedureNotPossibleError
 from app.session.needle import FROM_CAMERAS
+from app.session.needle_now import NeedleNow
 from app.session.procedure import (
     KIND,
-    NeedleNow,
     ProcedureState,
     Step,
+    Tool,
     begin_data,
     perform,
 )
+from app.session.scripted_answers import WATCHED_S, ScriptedPatient
 from app.simulation.procedure_script import StopPhase
 
 if TYPE_CHECKING:
@@ -45,10 +47,11 @@ Perform = Callable[[Step, int, float], ProcedureState]
 
 
 def sampling_time(part: ProcedurePart) -> float:
-    """Return how long a script stays for its samples [s]; 0 where the exercise takes none."""
+    """Return how long a script stays for its samples, and to watch the patient [s]."""
+    watched = 0.0 if part.complications is None else WATCHED_S
     if part.biopsy is None:
-        return 0.0
-    return PACE * (len(OF_A_SAMPLE) * min(SAMPLES, part.biopsy.most_samples) + 2)
+        return watched
+    return PACE * (len(OF_A_SAMPLE) * min(SAMPLES, part.biopsy.most_samples) + 2) + watched
 
 
 @dataclass(slots=True)
@@ -99,6 +102,7 @@ def steps_of_rows(
     phases: FloatArray,
     placed: PlacedPlan,
     field: TissueField | None,
+    patient: ScriptedPatient | None = None,
 ) -> tuple[Event, ...]:
     """Do the steps of a script at the samples of an attempt that ran without a trainer.
 
@@ -108,12 +112,13 @@ def steps_of_rows(
         phases: of the script at each sample, shape (n,).
         placed: the plan.
         field: of the patient's tissue.
+        patient: complications and who answers them; None where none can happen.
     """
     state, steps, events = ProcedureState.at_begin(part), ScriptedSteps(part), list[Event]()
     seen = np.isin(samples.depth_source, FROM_CAMERAS) & samples.valid
     events.append(Event(float(samples.time[0]), KIND, state.words, begin_data(state)))
     for row, phase in enumerate(phases.tolist()):
-        if phase == steps.phase and not steps.waits:
+        if patient is None and phase == steps.phase and not steps.waits:
             continue
         bend = None if samples.bend is None else Bend.of_numbers(samples.bend[row])
         axis, depth = samples.axis[row], float(samples.depth[row])
@@ -132,7 +137,12 @@ def steps_of_rows(
             nonlocal state
             state, words, data = perform(state, step, needle, placed, field, throw, deg, time)
             events.append(Event(time, KIND, words, data))
+            if patient is not None and step is Step.FIRE:
+                patient.happens.fired(needle)
             return state
 
+        if patient is not None:
+            is_outer = state.tool is not Tool.ANAESTHETIC
+            events.extend(patient.look(needle, is_outer, time))
         steps.look(phase, time, act)
     return tuple(events)

@@ -18,6 +18,7 @@ from app.device.readiness import ForceClearance
 from app.device.state import DeviceState
 from app.planning.off_path import Offset
 from app.planning.placement import PlacedPlan
+from app.session.complications import ComplicationsState
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
@@ -83,6 +84,7 @@ class Snapshot:
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
         touch: how the attempt stands with its targets; None where there is nothing to touch.
         procedure: how it stands with the steps of the procedure; None where there are none.
+        complications: what the student sees of complications; None where none can happen.
         pause: why the attempt waits; None while it does not.
         simulated: whether robot and cameras both are: nobody can show them a marker.
     """
@@ -114,6 +116,7 @@ class Snapshot:
     roll: float | None = None
     touch: TouchState | None = None
     procedure: ProcedureState | None = None
+    complications: ComplicationsState | None = None
     pause: PauseCause | None = None
     simulated: bool = False
 

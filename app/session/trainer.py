@@ -15,28 +15,44 @@ from app.core.latest import Latest
 from app.core.messages import sentence
 from app.core.paced_clock import PacedClock
 from app.core.units import MILLIMETRE
+from app.exercises.guidance import Purpose
 from app.exercises.locks import Lock
 from app.imaging.field import TissueField
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
+from app.scoring.complications.answers import Reaction
 from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
 from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
+from app.session.complications import KIND as COMPLICATION
+from app.session.complications import (
+    ComplicationCase,
+    Complications,
+    Happening,
+    attempt_seed,
+)
 from app.session.conditions import ARM, POINTERS, TAKEN_OVER, TRAINEE, hand_of
 from app.session.context import RunContext
 from app.session.effect_models import KIND, ModelChoice
-from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
+from app.session.errors import (
+    ControlLockedError,
+    IllegalTransitionError,
+    ProcedureNotPossibleError,
+    SessionError,
+)
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
+from app.session.needle_now import NeedleNow
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.procedure import KIND as PROCEDURE
-from app.session.procedure import ProcedureState, Step, begin_data
+from app.session.procedure import ProcedureState, Step, Tool, begin_data
 from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk
 from app.session.running import RunningAttempt
 from app.session.scored import scorer
+from app.session.scripted_answers import ScriptedAnswers
 from app.session.scripted_steps import ScriptedSteps
 from app.session.snapshot import Snapshot, advice
 from app.session.still_hand import StillHand
@@ -57,6 +73,7 @@ from app.tracking.fix import NeedleFix
 if TYPE_CHECKING:
     from app.device.control.loop import Loop
     from app.exercises.schema import Exercise
+    from app.session.header import SessionHeader
     from app.tracking.needle_tracker import NeedleTracker
 
 TICK_PERIOD: Final = 0.02
@@ -99,6 +116,7 @@ class Trainer:
         beginnings: Beginnings | None = None,
         simulated: bool = False,
         by_program: bool = False,
+        scripted: str = "",
     ) -> None:
         """Keep the parts.
 
@@ -111,7 +129,8 @@ class Trainer:
         the skin before an attempt, `beginnings` where a simulated hand that a person moves begins;
         None for where scripts do. `simulated` says that robot and cameras both are: they rest while
         nobody wants them, and no pause is a real camera's fault. `by_program` says that no person
-        moves the hand: by a paced clock it needs no window that lives, and never rests.
+        moves the hand: by a paced clock it needs no window that lives, and never rests. `scripted`
+        names the skill of a scripted hand, for what the other hand does.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -121,6 +140,9 @@ class Trainer:
         self._touching = self._to_touch(placed)
         self._procedure: ProcedureState | None = None
         self._scripted: ScriptedSteps | None = None
+        self._case = ComplicationCase.of(exercise, placed, tissues)
+        self._happens: Complications | None = None
+        self._skill, self._answers = scripted, ScriptedAnswers.of(scripted)
         self._dial = exercise.assistance if dial is None else dial
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
@@ -283,6 +305,7 @@ class Trainer:
                 self._scripted = ScriptedSteps(exercise_part)
                 data = begin_data(self._procedure)
                 self._running.say(PROCEDURE, self._procedure.words, now, data)
+            self._begin_complications(header, now)
             self.heartbeat()
             if out is None:
                 self._running.say(WITHDRAWAL, self._withdrawal.words, now)
@@ -323,7 +346,11 @@ class Trainer:
         dose = 0.0 if order is None else guidance.dose(order)
         with self._lock:
             now = self._clock.now()
-            return self._running.scan(self._sources.seen, now, order, dose, guidance.streak)
+            inside = None
+            if order is not None and self._happens is not None:
+                inside = self._happens.scanned()
+            seen = self._sources.seen
+            return self._running.scan(seen, now, order, dose, guidance.streak, inside)
 
     def perform(self, step: Step, throw: int = 0, notch_deg: float = 0.0) -> ProcedureState:
         """Do a step of the exercise's procedure; returns how it stands then.
@@ -339,10 +366,71 @@ class Trainer:
         self.resting.want()
         with self._lock:
             now = self._clock.now()
+            seen, happens = self._sources.seen, self._happens
+            fallen_mm = None if happens is None else happens.fallen_mm
             self._procedure = self._running.perform(
-                self._procedure, step, self._sources.seen, now, self._tissues, throw, notch_deg
+                self._procedure, step, seen, now, self._tissues, throw, notch_deg, fallen_mm
             )
+            if happens is not None and step is Step.FIRE:
+                happens.fired(NeedleNow.of(seen))
             return self._procedure
+
+    def notice(self) -> None:
+        """Say that something is wrong with the patient.
+
+        Raises:
+            ProcedureNotPossibleError: if no attempt runs in which anything can happen.
+        """
+        self._respond(None)
+
+    def answer(self, answer: Reaction) -> None:
+        """Reaction a complication; one that is not there is told, and recorded.
+
+        Raises:
+            ProcedureNotPossibleError: if no attempt runs in which anything can happen.
+        """
+        self._respond(answer)
+
+    def _respond(self, answer: Reaction | None) -> None:
+        self.resting.want()
+        with self._lock:
+            happens = self._happens
+            if happens is None or not self._running.acts:
+                raise ProcedureNotPossibleError(
+                    sentence(
+                        "no complication can be answered now: begin an attempt at an exercise in "
+                        "which some can happen"
+                    )
+                )
+            happening = happens.notice() if answer is None else happens.answer(answer)
+            self._keep(happening, self._clock.now())
+
+    def _keep(self, happening: Happening, now: float) -> None:
+        keep = self._running.say if happening.is_told else self._running.keep
+        keep(COMPLICATION, happening.words, now, happening.data)
+
+    def _begin_complications(self, header: SessionHeader, now: float) -> None:
+        self._happens = None
+        if self._case is not None:
+            is_assessment = self._exercise.purpose is Purpose.ASSESSMENT
+            own = header.seed if self._skill and not is_assessment else None
+            seed = attempt_seed(header.id, is_assessment) if own is None else own
+            self._happens = Complications(self._case, seed)
+            self._answers = ScriptedAnswers.of(self._skill)
+            self._keep(self._happens.begin(), now)
+
+    def _watch_patient(self, seen: Observation, now: float) -> None:
+        """Let time pass for the patient, and what the needle does have its consequences."""
+        happens, running = self._happens, self._running
+        if happens is None or not running.counts:
+            return
+        is_outer = self._procedure is None or self._procedure.tool is not Tool.ANAESTHETIC
+        for happening in happens.look(NeedleNow.of(seen), is_outer, now, running.paused):
+            self._keep(happening, now)
+        if self._answers is not None and running.acts:
+            answer = self._answers.look(happens.rows, now)
+            if answer is not None:
+                self._keep(happens.answer(answer), now)
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
@@ -493,6 +581,11 @@ class Trainer:
         self._inputs.hold_breath(held)
 
     @property
+    def tissues(self) -> TissueField | None:
+        """Return the field of the patient's tissue; None where there is none."""
+        return self._tissues
+
+    @property
     def held_arming(self) -> bool:
         """Return whether the forces are on only while `arm` holds them on."""
         return self._arming.held
@@ -529,6 +622,7 @@ class Trainer:
             self._running.require_idle("the plan cannot change")
             self._touching = self._to_touch(placed)
             self._placed = placed
+            self._case = ComplicationCase.of(self._exercise, placed, self._tissues)
             self._take_aim()
 
     def on_fix(self, fix: NeedleFix) -> None:
@@ -614,6 +708,7 @@ class Trainer:
             if self._scripted is not None and seen.device is not None:
                 phase = float(seen.device.row[sv.TRAINEE_PHASE])
                 self._scripted.look(phase, now, self.perform)
+            self._watch_patient(seen, now)
             if self._breath is not None and (words := self._breath.observe(seen.device, now)):
                 self._running.say("breath", words, now, {"held": self._breath.now.held})
             reason = reason or self._bring_out(seen)
@@ -682,6 +777,7 @@ class Trainer:
             roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
             touch=None if self._touching is None else self._touching.state,
             procedure=self._procedure if self._exercise.procedure else None,
+            complications=None if self._happens is None else self._happens.state,
             pause=self._running.pause_cause,
             simulated=self._simulated,
         )

@@ -2852,6 +2852,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation>procedure: ein Werkzeug, das Ziele berührt, kennt keine Schritte</translation>
         </message>
         <message>
+            <source>procedure: complications are seen in control scans, and live pictures are of the patient before: use guidance.mode: control_ct</source>
+            <translation>procedure: Komplikationen sieht man in Kontrollscans, und Live-Bilder zeigen den Patienten vorher: guidance.mode: control_ct verwenden</translation>
+        </message>
+        <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
             <translation type="unfinished">plan {{own: true}} bei einem CT-Ordner braucht target_mm: [x, y, z]</translation>
         </message>
@@ -5640,6 +5644,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation>die Übung verlangt keine Schritte eines Eingriffs</translation>
         </message>
         <message>
+            <source>no complication can happen in this exercise</source>
+            <translation>in dieser Übung kann keine Komplikation eintreten</translation>
+        </message>
+        <message>
             <source>nothing was to be touched</source>
             <translation type="unfinished">es war nichts zu berühren</translation>
         </message>
@@ -6846,6 +6854,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>the tip moved by {spread_mm:.1f} mm while it was measured: rest it in the mark and hold still for a second</source>
             <translation type="unfinished">die Spitze bewegte sich während der Messung um {spread_mm:.1f} mm: Setzen Sie sie in die Marke und halten Sie eine Sekunde still</translation>
+        </message>
+        <message>
+            <source>no complication can be answered now: begin an attempt at an exercise in which some can happen</source>
+            <translation>jetzt kann auf keine Komplikation reagiert werden: einen Versuch an einer Übung beginnen, in der eine eintreten kann</translation>
         </message>
         <message>
             <source>nobody can take the needle over while {running_attempt_state}: no attempt is running</source>
@@ -10043,6 +10055,42 @@ Anteil</translation>
             <translation type="unfinished">rechts</translation>
         </message>
         <message>
+            <source>it helps, but something else is called for</source>
+            <translation>es hilft, aber etwas anderes ist angezeigt</translation>
+        </message>
+        <message>
+            <source>wrong</source>
+            <translation>falsch</translation>
+        </message>
+        <message>
+            <source>there is no complication</source>
+            <translation>es gibt keine Komplikation</translation>
+        </message>
+        <message>
+            <source>a pneumothorax begins</source>
+            <translation>ein Pneumothorax beginnt</translation>
+        </message>
+        <message>
+            <source>the lung bleeds</source>
+            <translation>die Lunge blutet</translation>
+        </message>
+        <message>
+            <source>you say that something is wrong</source>
+            <translation>Sie sagen, dass etwas nicht stimmt</translation>
+        </message>
+        <message>
+            <source>{answer}: {verdict}</source>
+            <translation>{answer}: {verdict}</translation>
+        </message>
+        <message>
+            <source>{answer} ({row})</source>
+            <translation>{answer} ({row})</translation>
+        </message>
+        <message>
+            <source>odds of a pneumothorax</source>
+            <translation>Odds eines Pneumothorax</translation>
+        </message>
+        <message>
             <source>Latency of the {name} camera</source>
             <translation type="unfinished">Latenz der Kamera {name}</translation>
         </message>
@@ -11438,6 +11486,10 @@ Anteil</translation>
             <translation type="unfinished">Was die Nadel getroffen hat, mit der Kraft längs der Nadel</translation>
         </message>
         <message>
+            <source>What happened to the patient</source>
+            <translation>Was dem Patienten geschah</translation>
+        </message>
+        <message>
             <source>Next: {title}</source>
             <translation type="unfinished">Weiter: {title}</translation>
         </message>
@@ -11783,6 +11835,10 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>✔ {name}: {distance:.1f} mm, at {when} (limit {limit:g} mm)</source>
             <translation type="unfinished">✔ {name}: {distance:.1f} mm, bei {when} (Grenze {limit:g} mm)</translation>
+        </message>
+        <message>
+            <source>· {what}, at {when}</source>
+            <translation>· {what}, bei {when}</translation>
         </message>
         <message>
             <source>real robot</source>
@@ -17574,6 +17630,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Eingriff: nächster Schritt; Biopsiegerät auslösen</translation>
         </message>
         <message>
+            <source>patient: something is wrong; do what is chosen</source>
+            <translation>Patient: etwas stimmt nicht; tun, was gewählt ist</translation>
+        </message>
+        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">Plan speichern, speichern als</translation>
         </message>
@@ -18906,6 +18966,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Kompetenz: LC-CUSUM, danach CUSUM</translation>
         </message>
         <message>
+            <source>Complication answered</source>
+            <translation>Reaktion auf Komplikation</translation>
+        </message>
+        <message>
+            <source>Complication noticed after</source>
+            <translation>Komplikation bemerkt nach</translation>
+        </message>
+        <message>
             <source>Contact of the tip with bone</source>
             <translation type="unfinished">Kontakt der Spitze mit Knochen</translation>
         </message>
@@ -19090,6 +19158,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Lungenbiopsie in sechs Einheiten</translation>
         </message>
         <message>
+            <source>Lung biopsy in which something can happen</source>
+            <translation>Lungenbiopsie, bei der etwas geschehen kann</translation>
+        </message>
+        <message>
             <source>Lung biopsy, from the skin to the sample</source>
             <translation>Lungenbiopsie, von der Haut bis zur Probe</translation>
         </message>
@@ -19268,6 +19340,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Surfaces of the 3D view: resolution of the grid against time</source>
             <translation type="unfinished">Oberflächen der 3D-Ansicht: Auflösung des Gitters gegenüber Zeit</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). An answer to what is not there counts as a wrong one.</source>
+            <translation>Nehmen Sie unter Kontrollscans zwei Proben des Knotens in der rechten Lunge: Lokalanästhesie bis an die Pleura (J), die Hohlnadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Biopsiepistole hinein (J), auslösen (Ctrl+J), Pistole heraus, Mandrin hinein. Scannen Sie wieder (S), und achten Sie auf Monitor und Patient: die Lunge kann zusammenfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J). Eine Antwort auf etwas, das nicht da ist, zählt als falsche.</translation>
         </message>
         <message>
             <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
@@ -20127,6 +20203,24 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
   refused {kind}: {reason}</source>
             <translation type="unfinished">
   abgelehnt {kind}: {reason}</translation>
+        </message>
+        <message>
+            <source>
+  complications, by lot at published odds: pneumothorax {air:.0f} % of a needle along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %</source>
+            <translation>
+  Komplikationen, durch das Los nach veröffentlichten Odds: Pneumothorax {air:.0f} % bei einer Nadel entlang des Plans, {drain:.0f} % davon mit Drainage; Blut in der Lunge {blood:.0f} %</translation>
+        </message>
+        <message>
+            <source>    it has: {factors}</source>
+            <translation>    sie hat: {factors}</translation>
+        </message>
+        <message>
+            <source>    not known, as in the case mix: {factors}</source>
+            <translation>    nicht bekannt, wie im Patientengut: {factors}</translation>
+        </message>
+        <message>
+            <source>    {source}</source>
+            <translation>    {source}</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -22861,6 +22955,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>diagnostic_mm {diagnostic_mm:g} ist mehr, als die längste Kerbe fasst, {longest:g} mm: keine Probe könnte genügen</translation>
         </message>
         <message>
+            <source>neither pneumothorax nor bleeding can happen: leave complications out</source>
+            <translation>Weder Pneumothorax noch Blutung kann eintreten: complications weglassen</translation>
+        </message>
+        <message>
             <source>procedure names no step; there are {names}</source>
             <translation>procedure nennt keinen Schritt; es gibt {names}</translation>
         </message>
@@ -23139,6 +23237,170 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>this path does not go through the lung</source>
             <translation>dieser Weg führt nicht durch die Lunge</translation>
+        </message>
+        <message>
+            <source>a share of {share} of the chest is none</source>
+            <translation>ein Anteil {share} des Brustkorbs ist keiner</translation>
+        </message>
+        <message>
+            <source>blood {radius} mm about the needle's way is none</source>
+            <translation>Blut {radius} mm um den Nadelweg gibt es nicht</translation>
+        </message>
+        <message>
+            <source>gravity has no direction</source>
+            <translation>die Schwerkraft hat keine Richtung</translation>
+        </message>
+        <message>
+            <source>go on through the outer needle, and watch</source>
+            <translation>durch die Hohlnadel weitermachen und beobachten</translation>
+        </message>
+        <message>
+            <source>withdraw into the pleural space and aspirate</source>
+            <translation>in den Pleuraraum zurückziehen und aspirieren</translation>
+        </message>
+        <message>
+            <source>turn the patient, puncture side down</source>
+            <translation>den Patienten drehen, Punktionsseite nach unten</translation>
+        </message>
+        <message>
+            <source>give oxygen</source>
+            <translation>Sauerstoff geben</translation>
+        </message>
+        <message>
+            <source>place a chest drain</source>
+            <translation>eine Thoraxdrainage legen</translation>
+        </message>
+        <message>
+            <source>stop and call for help</source>
+            <translation>abbrechen und Hilfe rufen</translation>
+        </message>
+        <message>
+            <source>pneumothorax of less than 20 mm, no symptoms</source>
+            <translation>Pneumothorax unter 20 mm, keine Symptome</translation>
+        </message>
+        <message>
+            <source>pneumothorax of 20 mm or more</source>
+            <translation>Pneumothorax ab 20 mm</translation>
+        </message>
+        <message>
+            <source>pneumothorax of 30 mm or more, or one with a saturation below 92 %, or one that came back after aspiration</source>
+            <translation>Pneumothorax ab 30 mm, oder einer mit einer Sättigung unter 92 %, oder einer, der nach Aspiration wiederkam</translation>
+        </message>
+        <message>
+            <source>blood about the needle's way, none coughed</source>
+            <translation>Blut um den Nadelweg, keines ausgehustet</translation>
+        </message>
+        <message>
+            <source>blood coughed, or more than 2 cm about the needle's way</source>
+            <translation>Blut ausgehustet, oder mehr als 2 cm um den Nadelweg</translation>
+        </message>
+        <message>
+            <source>no cough</source>
+            <translation>kein Husten</translation>
+        </message>
+        <message>
+            <source>coughs blood</source>
+            <translation>hustet Blut</translation>
+        </message>
+        <message>
+            <source>coughs</source>
+            <translation>hustet</translation>
+        </message>
+        <message>
+            <source>Saturation {saturation} %, pulse {pulse}/min, pain {pain} of 10, {cough}</source>
+            <translation>Sättigung {saturation} %, Puls {pulse}/min, Schmerz {pain} von 10, {cough}</translation>
+        </message>
+        <message>
+            <source>lesion smaller than 4 cm</source>
+            <translation>Läsion unter 4 cm</translation>
+        </message>
+        <message>
+            <source>lesion without contact to the pleura</source>
+            <translation>Läsion ohne Pleurakontakt</translation>
+        </message>
+        <message>
+            <source>3 cm of lung or more on the way</source>
+            <translation>3 cm Lunge oder mehr auf dem Weg</translation>
+        </message>
+        <message>
+            <source>needle of 18 G or thicker</source>
+            <translation>Nadel von 18 G oder dicker</translation>
+        </message>
+        <message>
+            <source>pleura punctured more than once</source>
+            <translation>Pleura mehr als einmal punktiert</translation>
+        </message>
+        <message>
+            <source>fissure crossed</source>
+            <translation>Fissur durchquert</translation>
+        </message>
+        <message>
+            <source>bulla crossed</source>
+            <translation>Bulla durchquert</translation>
+        </message>
+        <message>
+            <source>a case mix has {factors} shares of factors and {positions} of positions</source>
+            <translation>ein Patientengut hat {factors} Anteile von Faktoren und {positions} von Lagerungen</translation>
+        </message>
+        <message>
+            <source>{share} is no share: it must lie between 0 and 1</source>
+            <translation>{share} ist kein Anteil: er muss zwischen 0 und 1 liegen</translation>
+        </message>
+        <message>
+            <source>the shares of positions add up to {total:g}, not 1</source>
+            <translation>die Anteile der Lagerungen ergeben zusammen {total:g}, nicht 1</translation>
+        </message>
+        <message>
+            <source>{name!r} is no factor; there are {names}</source>
+            <translation>{name!r} ist kein Faktor; es gibt {names}</translation>
+        </message>
+        <message>
+            <source>lot {name} is {drawn!r}; it must lie between 0 and 1</source>
+            <translation>Los {name} ist {drawn!r}; es muss zwischen 0 und 1 liegen</translation>
+        </message>
+        <message>
+            <source>a complication of the attempt: a number is not finite</source>
+            <translation>eine Komplikation des Versuchs: eine Zahl ist nicht endlich</translation>
+        </message>
+        <message>
+            <source>no odds of this case mix give the published odds ratios and incidence</source>
+            <translation>keine Odds dieses Patientenguts ergeben die veröffentlichten Odds Ratios und die Häufigkeit</translation>
+        </message>
+        <message>
+            <source>no complication happened</source>
+            <translation>keine Komplikation ist eingetreten</translation>
+        </message>
+        <message>
+            <source>What the monitor shows, and what the patient says</source>
+            <translation>Was der Monitor zeigt und was der Patient sagt</translation>
+        </message>
+        <message>
+            <source>Something is wrong (Shift+J)</source>
+            <translation>Etwas stimmt nicht (Shift+J)</translation>
+        </message>
+        <message>
+            <source>Say it as soon as you see it: the time counts</source>
+            <translation>Sagen Sie es, sobald Sie es sehen: die Zeit zählt</translation>
+        </message>
+        <message>
+            <source>Do this (Ctrl+Shift+J)</source>
+            <translation>Das tun (Ctrl+Shift+J)</translation>
+        </message>
+        <message>
+            <source>Do what is chosen here</source>
+            <translation>Tun, was hier gewählt ist</translation>
+        </message>
+        <message>
+            <source>What is to be done</source>
+            <translation>Was zu tun ist</translation>
+        </message>
+        <message>
+            <source>What is to be done about a complication, by its size</source>
+            <translation>Was gegen eine Komplikation zu tun ist, nach ihrer Größe</translation>
+        </message>
+        <message>
+            <source>Patient</source>
+            <translation>Patient</translation>
         </message>
     </context>
 </TS>

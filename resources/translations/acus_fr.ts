@@ -2852,6 +2852,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation>procedure : un outil qui touche des cibles ne connaît pas d'étapes</translation>
         </message>
         <message>
+            <source>procedure: complications are seen in control scans, and live pictures are of the patient before: use guidance.mode: control_ct</source>
+            <translation>procedure : les complications se voient sur les scanners de contrôle, et les images en direct montrent le patient d’avant : utilisez guidance.mode: control_ct</translation>
+        </message>
+        <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
             <translation type="unfinished">plan {{own: true}} d’un dossier CT demande target_mm: [x, y, z]</translation>
         </message>
@@ -5640,6 +5644,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation>l'exercice ne demande aucune étape d'intervention</translation>
         </message>
         <message>
+            <source>no complication can happen in this exercise</source>
+            <translation>aucune complication ne peut survenir dans cet exercice</translation>
+        </message>
+        <message>
             <source>nothing was to be touched</source>
             <translation type="unfinished">il n’y avait rien à toucher</translation>
         </message>
@@ -6846,6 +6854,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         <message>
             <source>the tip moved by {spread_mm:.1f} mm while it was measured: rest it in the mark and hold still for a second</source>
             <translation type="unfinished">la pointe a bougé de {spread_mm:.1f} mm pendant la mesure : posez-la dans le repère et ne bougez plus pendant une seconde</translation>
+        </message>
+        <message>
+            <source>no complication can be answered now: begin an attempt at an exercise in which some can happen</source>
+            <translation>aucune complication ne peut être traitée maintenant : commencez un essai d’un exercice où il peut en survenir</translation>
         </message>
         <message>
             <source>nobody can take the needle over while {running_attempt_state}: no attempt is running</source>
@@ -10043,6 +10055,42 @@ part</translation>
             <translation type="unfinished">droite</translation>
         </message>
         <message>
+            <source>it helps, but something else is called for</source>
+            <translation>cela aide, mais autre chose est indiqué</translation>
+        </message>
+        <message>
+            <source>wrong</source>
+            <translation>faux</translation>
+        </message>
+        <message>
+            <source>there is no complication</source>
+            <translation>il n’y a pas de complication</translation>
+        </message>
+        <message>
+            <source>a pneumothorax begins</source>
+            <translation>un pneumothorax débute</translation>
+        </message>
+        <message>
+            <source>the lung bleeds</source>
+            <translation>le poumon saigne</translation>
+        </message>
+        <message>
+            <source>you say that something is wrong</source>
+            <translation>vous dites que quelque chose ne va pas</translation>
+        </message>
+        <message>
+            <source>{answer}: {verdict}</source>
+            <translation>{answer} : {verdict}</translation>
+        </message>
+        <message>
+            <source>{answer} ({row})</source>
+            <translation>{answer} ({row})</translation>
+        </message>
+        <message>
+            <source>odds of a pneumothorax</source>
+            <translation>cote d’un pneumothorax</translation>
+        </message>
+        <message>
             <source>Latency of the {name} camera</source>
             <translation type="unfinished">Latence de la caméra {name}</translation>
         </message>
@@ -11438,6 +11486,10 @@ part</translation>
             <translation type="unfinished">Ce que l’aiguille a rencontré, avec la force le long de l’aiguille</translation>
         </message>
         <message>
+            <source>What happened to the patient</source>
+            <translation>Ce qui est arrivé au patient</translation>
+        </message>
+        <message>
             <source>Next: {title}</source>
             <translation type="unfinished">Suite : {title}</translation>
         </message>
@@ -11783,6 +11835,10 @@ Lettres : directions du patient
         <message>
             <source>✔ {name}: {distance:.1f} mm, at {when} (limit {limit:g} mm)</source>
             <translation type="unfinished">✔ {name} : {distance:.1f} mm, à {when} (limite {limit:g} mm)</translation>
+        </message>
+        <message>
+            <source>· {what}, at {when}</source>
+            <translation>· {what}, à {when}</translation>
         </message>
         <message>
             <source>real robot</source>
@@ -17574,6 +17630,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>intervention : étape suivante ; déclencher le pistolet à biopsie</translation>
         </message>
         <message>
+            <source>patient: something is wrong; do what is chosen</source>
+            <translation>patient : quelque chose ne va pas ; faire ce qui est choisi</translation>
+        </message>
+        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">enregistrer le plan, enregistrer sous</translation>
         </message>
@@ -18906,6 +18966,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Compétence : LC-CUSUM, puis CUSUM</translation>
         </message>
         <message>
+            <source>Complication answered</source>
+            <translation>Réponse à la complication</translation>
+        </message>
+        <message>
+            <source>Complication noticed after</source>
+            <translation>Complication remarquée après</translation>
+        </message>
+        <message>
             <source>Contact of the tip with bone</source>
             <translation type="unfinished">Contact de la pointe avec l’os</translation>
         </message>
@@ -19090,6 +19158,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>Biopsie pulmonaire en six unités</translation>
         </message>
         <message>
+            <source>Lung biopsy in which something can happen</source>
+            <translation>Biopsie pulmonaire où quelque chose peut arriver</translation>
+        </message>
+        <message>
             <source>Lung biopsy, from the skin to the sample</source>
             <translation>Biopsie pulmonaire, de la peau au prélèvement</translation>
         </message>
@@ -19268,6 +19340,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Surfaces of the 3D view: resolution of the grid against time</source>
             <translation type="unfinished">Surfaces de la vue 3D : résolution de la grille face au temps</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). An answer to what is not there counts as a wrong one.</source>
+            <translation>Prélevez deux échantillons du nodule du poumon droit sous scanners de contrôle : anesthésie locale jusqu’à la plèvre (J), l’aiguille externe (J), une pause, et une seule fois à travers la plèvre. Mandrin retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, mandrin remis. Refaites un scanner (S), et surveillez moniteur et patient : le poumon peut se rétracter, ou saigner. Dites-le dès que vous le voyez (Shift+J), choisissez ce qu’il faut faire, et faites-le (Ctrl+Shift+J). Une réponse à ce qui n’existe pas compte comme fausse.</translation>
         </message>
         <message>
             <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
@@ -20127,6 +20203,24 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
   refused {kind}: {reason}</source>
             <translation type="unfinished">
   refusé {kind} : {reason}</translation>
+        </message>
+        <message>
+            <source>
+  complications, by lot at published odds: pneumothorax {air:.0f} % of a needle along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %</source>
+            <translation>
+  complications, tirées au sort selon des cotes publiées : pneumothorax {air:.0f} % pour une aiguille suivant le plan, dont {drain:.0f} % avec drain ; sang dans le poumon {blood:.0f} %</translation>
+        </message>
+        <message>
+            <source>    it has: {factors}</source>
+            <translation>    elle a : {factors}</translation>
+        </message>
+        <message>
+            <source>    not known, as in the case mix: {factors}</source>
+            <translation>    inconnu, comme dans l’ensemble des cas : {factors}</translation>
+        </message>
+        <message>
+            <source>    {source}</source>
+            <translation>    {source}</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -22861,6 +22955,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>diagnostic_mm {diagnostic_mm:g} dépasse ce que contient la plus longue encoche, {longest:g} mm : aucun prélèvement ne pourrait suffire</translation>
         </message>
         <message>
+            <source>neither pneumothorax nor bleeding can happen: leave complications out</source>
+            <translation>ni pneumothorax ni saignement ne peut survenir : omettez complications</translation>
+        </message>
+        <message>
             <source>procedure names no step; there are {names}</source>
             <translation>procedure ne nomme aucune étape ; il y a {names}</translation>
         </message>
@@ -23139,6 +23237,170 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>this path does not go through the lung</source>
             <translation>ce trajet ne passe pas par le poumon</translation>
+        </message>
+        <message>
+            <source>a share of {share} of the chest is none</source>
+            <translation>une part {share} du thorax n’en est pas une</translation>
+        </message>
+        <message>
+            <source>blood {radius} mm about the needle's way is none</source>
+            <translation>du sang à {radius} mm autour du trajet de l’aiguille est impossible</translation>
+        </message>
+        <message>
+            <source>gravity has no direction</source>
+            <translation>la pesanteur n’a pas de direction</translation>
+        </message>
+        <message>
+            <source>go on through the outer needle, and watch</source>
+            <translation>continuer par l’aiguille externe, et surveiller</translation>
+        </message>
+        <message>
+            <source>withdraw into the pleural space and aspirate</source>
+            <translation>retirer dans l’espace pleural et aspirer</translation>
+        </message>
+        <message>
+            <source>turn the patient, puncture side down</source>
+            <translation>tourner le patient, côté ponctionné en bas</translation>
+        </message>
+        <message>
+            <source>give oxygen</source>
+            <translation>donner de l’oxygène</translation>
+        </message>
+        <message>
+            <source>place a chest drain</source>
+            <translation>poser un drain thoracique</translation>
+        </message>
+        <message>
+            <source>stop and call for help</source>
+            <translation>arrêter et appeler à l’aide</translation>
+        </message>
+        <message>
+            <source>pneumothorax of less than 20 mm, no symptoms</source>
+            <translation>pneumothorax de moins de 20 mm, sans symptômes</translation>
+        </message>
+        <message>
+            <source>pneumothorax of 20 mm or more</source>
+            <translation>pneumothorax de 20 mm ou plus</translation>
+        </message>
+        <message>
+            <source>pneumothorax of 30 mm or more, or one with a saturation below 92 %, or one that came back after aspiration</source>
+            <translation>pneumothorax de 30 mm ou plus, ou avec une saturation inférieure à 92 %, ou revenu après aspiration</translation>
+        </message>
+        <message>
+            <source>blood about the needle's way, none coughed</source>
+            <translation>sang autour du trajet de l’aiguille, sans hémoptysie</translation>
+        </message>
+        <message>
+            <source>blood coughed, or more than 2 cm about the needle's way</source>
+            <translation>hémoptysie, ou plus de 2 cm autour du trajet de l’aiguille</translation>
+        </message>
+        <message>
+            <source>no cough</source>
+            <translation>pas de toux</translation>
+        </message>
+        <message>
+            <source>coughs blood</source>
+            <translation>crache du sang</translation>
+        </message>
+        <message>
+            <source>coughs</source>
+            <translation>tousse</translation>
+        </message>
+        <message>
+            <source>Saturation {saturation} %, pulse {pulse}/min, pain {pain} of 10, {cough}</source>
+            <translation>Saturation {saturation} %, pouls {pulse}/min, douleur {pain} sur 10, {cough}</translation>
+        </message>
+        <message>
+            <source>lesion smaller than 4 cm</source>
+            <translation>lésion de moins de 4 cm</translation>
+        </message>
+        <message>
+            <source>lesion without contact to the pleura</source>
+            <translation>lésion sans contact avec la plèvre</translation>
+        </message>
+        <message>
+            <source>3 cm of lung or more on the way</source>
+            <translation>3 cm de poumon ou plus sur le trajet</translation>
+        </message>
+        <message>
+            <source>needle of 18 G or thicker</source>
+            <translation>aiguille de 18 G ou plus grosse</translation>
+        </message>
+        <message>
+            <source>pleura punctured more than once</source>
+            <translation>plèvre ponctionnée plus d’une fois</translation>
+        </message>
+        <message>
+            <source>fissure crossed</source>
+            <translation>scissure traversée</translation>
+        </message>
+        <message>
+            <source>bulla crossed</source>
+            <translation>bulle traversée</translation>
+        </message>
+        <message>
+            <source>a case mix has {factors} shares of factors and {positions} of positions</source>
+            <translation>un ensemble de cas a {factors} parts de facteurs et {positions} de positions</translation>
+        </message>
+        <message>
+            <source>{share} is no share: it must lie between 0 and 1</source>
+            <translation>{share} n’est pas une part : elle doit être entre 0 et 1</translation>
+        </message>
+        <message>
+            <source>the shares of positions add up to {total:g}, not 1</source>
+            <translation>les parts des positions font {total:g} au total, et non 1</translation>
+        </message>
+        <message>
+            <source>{name!r} is no factor; there are {names}</source>
+            <translation>{name!r} n’est pas un facteur ; il y a {names}</translation>
+        </message>
+        <message>
+            <source>lot {name} is {drawn!r}; it must lie between 0 and 1</source>
+            <translation>le tirage {name} vaut {drawn!r} ; il doit être entre 0 et 1</translation>
+        </message>
+        <message>
+            <source>a complication of the attempt: a number is not finite</source>
+            <translation>une complication de l’essai : un nombre n’est pas fini</translation>
+        </message>
+        <message>
+            <source>no odds of this case mix give the published odds ratios and incidence</source>
+            <translation>aucune cote de cet ensemble de cas ne donne les rapports de cotes et l’incidence publiés</translation>
+        </message>
+        <message>
+            <source>no complication happened</source>
+            <translation>aucune complication n’est survenue</translation>
+        </message>
+        <message>
+            <source>What the monitor shows, and what the patient says</source>
+            <translation>Ce que montre le moniteur, et ce que dit le patient</translation>
+        </message>
+        <message>
+            <source>Something is wrong (Shift+J)</source>
+            <translation>Quelque chose ne va pas (Shift+J)</translation>
+        </message>
+        <message>
+            <source>Say it as soon as you see it: the time counts</source>
+            <translation>Dites-le dès que vous le voyez : le temps compte</translation>
+        </message>
+        <message>
+            <source>Do this (Ctrl+Shift+J)</source>
+            <translation>Faire cela (Ctrl+Shift+J)</translation>
+        </message>
+        <message>
+            <source>Do what is chosen here</source>
+            <translation>Faire ce qui est choisi ici</translation>
+        </message>
+        <message>
+            <source>What is to be done</source>
+            <translation>Ce qu’il faut faire</translation>
+        </message>
+        <message>
+            <source>What is to be done about a complication, by its size</source>
+            <translation>Ce qu’il faut faire contre une complication, selon sa taille</translation>
+        </message>
+        <message>
+            <source>Patient</source>
+            <translation>Patient</translation>
         </message>
     </context>
 </TS>

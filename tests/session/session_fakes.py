@@ -45,6 +45,7 @@ EXERCISE = SimpleNamespace(
     rules=ScoreRules(),
     guidance=GuidancePart(),
     longest_hold=None,
+    procedure=None,
     touch_task=lambda placed: None,
 )
 

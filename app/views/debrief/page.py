@@ -45,6 +45,7 @@ from app.views.debrief.replay import (
     placed_ghost,
 )
 from app.views.debrief.score_words import (
+    complication_lines,
     counting,
     facts_of,
     met_lines,
@@ -285,6 +286,7 @@ class DebriefPage(QWidget):
         self.card, self.fold = DebriefCard(self), QToolButton(self)
         self._problems, self.risks = PlainLabel(self), PlainLabel(self)
         self.met, self.published = PlainLabel(self), PublishedOdds(self)
+        self.complications = PlainLabel(self)
         self.proposal = PlainLabel(self)
         self.held, self.comment = PlainLabel(self), PlainLabel(self)
         self.table = ScoreTable(self)
@@ -325,6 +327,9 @@ class DebriefPage(QWidget):
             "\n".join((tr("What the needle met, with the force along the needle"), *lines))
         )
         self.met.setVisible(bool(lines))
+        lines = complication_lines(review)
+        self.complications.setText("\n".join((tr("What happened to the patient"), *lines)))
+        self.complications.setVisible(bool(lines))
         self.published.show_review(review)
         self.card.offer(None)
         self.table.show_score(review.score)
@@ -524,6 +529,7 @@ class DebriefPage(QWidget):
             self._problems,
             self.risks,
             self.met,
+            self.complications,
             self.proposal,
             self.held,
             self.comment,
@@ -590,7 +596,14 @@ class DebriefPage(QWidget):
         self._below = below = QWidget(self)
         column = QVBoxLayout(below)
         column.setContentsMargins(0, 0, 0, 0)
-        for widget in (self.table, self.details, self.risks, self.met, self.published):
+        for widget in (
+            self.table,
+            self.details,
+            self.risks,
+            self.met,
+            self.complications,
+            self.published,
+        ):
             column.addWidget(widget)
         self.fold.setText(tr("All metrics"))
         self.fold.setToolTip(tr("Every metric with its value, band and points; remembered"))

@@ -65,6 +65,16 @@ def met_lines(review: Review) -> tuple[str, ...]:
     return tuple(line for _, line in sorted(lines, key=lambda one: one[0]))
 
 
+def complication_lines(review: Review) -> tuple[str, ...]:
+    """List what happened to the patient, and what was answered, in order."""
+    lines = []
+    for event in review.complications:
+        if event.data.get("step") in ("onset", "stage", "notice", "answer"):
+            when = clock_text(review.clock_at(event.time))
+            lines.append(tr("· {what}, at {when}", what=translated(event.message), when=when))
+    return tuple(lines)
+
+
 _PLAIN = ("skin", "fat", "muscle")
 
 

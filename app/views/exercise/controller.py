@@ -18,6 +18,7 @@ from app.core.units import MILLIMETRE
 from app.exercises.parts import ViewName
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
+from app.scoring.complications.answers import Reaction
 from app.session.display_load import BusyWatch, WorldPace
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
@@ -26,6 +27,7 @@ from app.session.procedure import Step
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
+from app.session.trainer import Trainer
 from app.session.transitions import PauseCause
 from app.views.exercise.axial_gauge import AxialGauge, axial_force, bone_crossed_mm
 from app.views.exercise.bullseye import Bullseye
@@ -168,6 +170,7 @@ class ExerciseDisplay:
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
         acts = commands and snapshot.state not in (State.WITHDRAWING, State.PAUSED)
         views.panel.procedure.show_procedure(snapshot.procedure, acts, inside)
+        views.panel.patient.show_patient(snapshot.complications, commands)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, snapshot.ready, hidden
@@ -531,6 +534,23 @@ class ExerciseController(QObject):
                 return
             self.worked.emit()
 
+    def notice(self) -> None:
+        """Say that something is wrong with the patient."""
+        self._respond(lambda trainer: trainer.notice())
+
+    def answer(self, answer: Reaction) -> None:
+        """Answer a complication."""
+        self._respond(lambda trainer: trainer.answer(answer))
+
+    def _respond(self, respond: Callable[[Trainer], None]) -> None:
+        if self._run is not None:
+            try:
+                respond(self._run.trainer)
+            except AcusError as error:
+                self._fail(translated(error))
+                return
+            self.worked.emit()
+
     def scan(self) -> None:
         """Take a control scan: the slices that are set, where scans guide; else about the tip."""
         run = self._run
@@ -624,6 +644,8 @@ class ExerciseController(QObject):
         panel.withdrawal.confirmed.connect(self.confirm_outside)
         panel.breath.asked.connect(self.hold_breath)
         panel.procedure.asked.connect(self.perform)
+        panel.patient.noticed.connect(self.notice)
+        panel.patient.answered.connect(self.answer)
         self._views.bullseye.pad.rolled.connect(self.roll)
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)

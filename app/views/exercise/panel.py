@@ -29,6 +29,7 @@ from app.session.pad.hand import Handle
 from app.session.snapshot import BreathHold, Snapshot
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.attempt_rail import AttemptRail
+from app.views.exercise.complication_panel import ComplicationPanel
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
@@ -371,7 +372,8 @@ class AttemptTools(QWidget):
     """What is pressed and answered in an attempt: beside the rest of the panel, or in the rail.
 
     Attributes:
-        procedure, buttons, withdrawal, enable, breath, bevel, touch, scan: what stands there.
+        procedure, patient, buttons, withdrawal, enable, breath, bevel, touch, scan: what stands
+            there.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -384,6 +386,7 @@ class AttemptTools(QWidget):
         self.bevel.hide()
         self.touch = TouchNote(self)
         self.procedure = ProcedurePanel(self)
+        self.patient = ComplicationPanel(self)
         self.scan = ScanPanel(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -391,6 +394,7 @@ class AttemptTools(QWidget):
         for widget in (
             self.withdrawal,
             self.procedure,
+            self.patient,
             self.buttons,
             self.enable,
             self.breath,
@@ -451,6 +455,7 @@ class ExercisePanel(QWidget):
         self.buttons, self.withdrawal, self.enable = tools.buttons, tools.withdrawal, tools.enable
         self.breath, self.bevel, self.touch = tools.breath, tools.bevel, tools.touch
         self.procedure, self.scan = tools.procedure, tools.scan
+        self.patient = tools.patient
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -486,6 +491,7 @@ class ExercisePanel(QWidget):
         self.buttons.listen(page)
         self.breath.listen(page)
         self.procedure.listen(page)
+        self.patient.listen(page)
 
     def set_exercises(
         self, exercises: Sequence[tuple[str, str]], chosen: str | None = None
@@ -594,6 +600,7 @@ class ExercisePanel(QWidget):
         self.breath.show_breath(None, False)
         self.touch.hide()
         self.procedure.show_procedure(None, False)
+        self.patient.show_patient(None, False)
         self.energy.show_energy(None)
 
     def set_waiting(self, reason: str) -> None:

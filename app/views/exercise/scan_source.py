@@ -189,12 +189,14 @@ class ScanSource(QObject):
             return
         self._busy, self._waiting = True, False
         self._panel.set_busy(True)
-        volume, streak = patient.volume, scan.streak
+        volume, streak, field = patient.volume, scan.streak, run.trainer.tissues
 
         def make(_: Progress) -> Volume:
+            from app.imaging.fallen_lung import changed_ct
             from app.imaging.scanned import scan_image  # compiled parts: beside the window
 
-            return scan_image(volume, scan.order, scan.needle, streak, scan.shift_mm)
+            ct = changed_ct(volume, field, scan.inside, scan.tissue_range_mm)
+            return scan_image(ct, scan.order, scan.needle, streak, scan.shift_mm)
 
         run_in_background(self, make, lambda picture: self._show(picture, scan), self._fail)
 

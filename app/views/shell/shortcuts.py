@@ -88,6 +88,7 @@ def groups(
                 ),
                 ("S", tr("control scan")),
                 ("J, Ctrl+J", tr("procedure: next step; fire the biopsy gun")),
+                ("Shift+J, Ctrl+Shift+J", tr("patient: something is wrong; do what is chosen")),
                 (tr("Enter"), tr("end the attempt")),
                 ("Ctrl+B, Ctrl+T", tr("in an attempt: all panels; live pictures or the scan")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
