@@ -16228,6 +16228,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>{name} {mm:.1f} mm</translation>
         </message>
         <message>
+            <source>Rib met</source>
+            <translation>Rippe getroffen</translation>
+        </message>
+        <message>
             <source>Take this path</source>
             <translation type="unfinished">Diesen Pfad nehmen</translation>
         </message>
@@ -16286,8 +16290,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pfade werden bewertet</translation>
         </message>
         <message>
-            <source>Alternative, {points:.0f} points</source>
-            <translation>Alternative, {points:.0f} Punkte</translation>
+            <source>Alternative
+{points:.0f} points</source>
+            <translation>Alternative
+{points:.0f} Punkte</translation>
         </message>
         <message>
             <source>Import position of the patient (.tfm)…</source>

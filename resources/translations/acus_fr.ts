@@ -16228,6 +16228,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>{name} {mm:.1f} mm</translation>
         </message>
         <message>
+            <source>Rib met</source>
+            <translation>Côte touchée</translation>
+        </message>
+        <message>
             <source>Take this path</source>
             <translation type="unfinished">Prendre cette trajectoire</translation>
         </message>
@@ -16286,8 +16290,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Notation des trajectoires</translation>
         </message>
         <message>
-            <source>Alternative, {points:.0f} points</source>
-            <translation>Alternative, {points:.0f} points</translation>
+            <source>Alternative
+{points:.0f} points</source>
+            <translation>Alternative
+{points:.0f} points</translation>
         </message>
         <message>
             <source>Import position of the patient (.tfm)…</source>
