@@ -50,19 +50,18 @@ from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Table
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
-from app.scoring.met import Met
-from app.scoring.procedure import ProcedureMarks
 from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
 from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.observation import GRACE
 from app.session.planned import judged_plan_of
+from app.session.ablation import AblationState
 from app.session.procedure import marks_of
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
-from app.session.scripted_steps import steps_of_rows
+from app.session.scripted_steps import StepsDone, steps_of_rows
 from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
 from app.session.transitions import LOST
@@ -211,7 +210,9 @@ class Trials:
         self._planned = judged_plan_of(placed, tissues) if exercise.is_own_plan else None
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
-        self._pulls = self._task is not None and bool(exercise.laws)
+        self._ablation = AblationState.of(exercise.procedure, placed, tissues)
+        moves = self._task is not None or self._ablation is not None
+        self._pulls = moves and bool(exercise.laws)
         setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN), tissues=tissues)
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
@@ -266,7 +267,8 @@ class Trials:
         samples = self._samples(rows)
         faults = rows[rows[:, sv.TIME] > begin + GRACE, sv.FAULT]
         touching = None if self._task is None else Touching(self._task)
-        went = TrialCourse.of(samples, begin, touching)
+        steps = self._steps(samples, rows)
+        went = TrialCourse.of(samples, begin, touching, None if steps is None else steps.aside)
         if faults.any() or went.unseen >= LOST or (self._pulls and dial != 0.0):
             return None
         samples = replace(samples, state=went.states, target=went.target)
@@ -280,19 +282,17 @@ class Trials:
             touches=went.touches,
             met=met,
             planned=self._planned,
-            procedure=self._steps(samples, rows, met),
+            procedure=None if steps is None else marks_of(steps.events, samples, met),
         )
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
-    def _steps(
-        self, samples: Samples, rows: FloatArray, met: tuple[Met, ...] | None
-    ) -> ProcedureMarks | None:
+    def _steps(self, samples: Samples, rows: FloatArray) -> StepsDone | None:
         part = self._exercise.procedure
         if part is None:
             return None
         phases = rows[:, sv.TRAINEE_PHASE]
-        events = steps_of_rows(part, samples, phases, self._placed, self._tissues)
-        return marks_of(events, samples, met)
+        begin = self._placed, self._tissues, self._ablation
+        return steps_of_rows(part, samples, phases, *begin)
 
     def truth(self, rows: FloatArray) -> Samples:
         """Return the needle as it truly was at each look, whatever the cameras saw of it."""
@@ -394,6 +394,7 @@ class Trials:
         )
         low, high = self._profile.depth_range
         aims = (placed,) if self._task is None else self._task.plans
+        aims = aims if self._ablation is None else self._ablation.plans
         deepest = max(plan.length for plan in aims)
         last = min(high, deepest + BEYOND)
         depths = np.arange(min(low, START_DEPTH), last + STEP, STEP)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from math import isfinite
 
 from app.core.messages import sentence
-from app.scoring.errors import TrajectoryError
+from app.scoring.ablation import AblationMark
+from app.scoring.errors import MetricUnavailableError, TrajectoryError
 from app.scoring.met import Met
 
 
@@ -66,6 +67,7 @@ class ProcedureMarks:
         needle_from: moment from which the needle of the exercise itself was held [s]; None where it
             was from the beginning.
         met_before: what the needle for local anaesthetic met.
+        ablation: by the electrodes that were left in place; None where nothing was ablated.
     """
 
     deposits: tuple[Deposit, ...] = ()
@@ -73,6 +75,17 @@ class ProcedureMarks:
     open_s: float = 0.0
     needle_from: float | None = None
     met_before: tuple[Met, ...] = ()
+    ablation: AblationMark | None = None
+
+    def ablated(self) -> AblationMark:
+        """Return what was ablated.
+
+        Raises:
+            MetricUnavailableError: if nothing was.
+        """
+        if self.ablation is None:
+            raise MetricUnavailableError(sentence("nothing was ablated"))
+        return self.ablation
 
 
 def _check(*numbers: float) -> None:

@@ -24,9 +24,12 @@ from app.planning.errors import PlanError
 from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
 from app.planning.sampling import core
+from app.scoring.ablation import AblationMark
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
 from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
+from app.session import ablation as ablating
+from app.session.ablation import AblationState
 from app.session.errors import ProcedureNotPossibleError
 from app.session.samples import Samples
 from app.simulation.bound_field import BoundField
@@ -54,6 +57,8 @@ class Tool(StrEnum):
     """The outer needle with the biopsy gun in it, cocked."""
     FIRED = "fired"
     """The same after its throw."""
+    ELECTRODE = "electrode"
+    """An electrode for ablation."""
 
 
 class Step(StrEnum):
@@ -66,6 +71,11 @@ class Step(StrEnum):
     GUN_IN = "gun_in"
     FIRE = "fire"
     GUN_OUT = "gun_out"
+    PLACE_ELECTRODE = ablating.PLACE
+    ABLATE = ablating.ABLATE
+
+
+OF_ABLATION: Final = (Step.PLACE_ELECTRODE, Step.ABLATE)
 
 
 STEP_WORDS: Final = {
@@ -76,6 +86,8 @@ STEP_WORDS: Final = {
     Step.GUN_IN: sentence("biopsy gun in"),
     Step.FIRE: sentence("biopsy gun fired"),
     Step.GUN_OUT: sentence("biopsy gun out: the hub is open"),
+    Step.PLACE_ELECTRODE: sentence("electrode left in place"),
+    Step.ABLATE: sentence("the generator has ablated"),
 }
 
 _FROM: Final = {
@@ -86,6 +98,8 @@ _FROM: Final = {
     Step.GUN_IN: (Tool.OPEN,),
     Step.FIRE: (Tool.GUN,),
     Step.GUN_OUT: (Tool.GUN, Tool.FIRED),
+    Step.PLACE_ELECTRODE: (Tool.ELECTRODE,),
+    Step.ABLATE: (Tool.ELECTRODE,),
 }
 _TO: Final = {
     Step.TAKE_NEEDLE: Tool.STYLET,
@@ -101,6 +115,7 @@ TOOL_WORDS: Final = {
     Tool.OPEN: sentence("outer needle, open to air"),
     Tool.GUN: sentence("outer needle with the biopsy gun, cocked"),
     Tool.FIRED: sentence("outer needle with the biopsy gun, fired"),
+    Tool.ELECTRODE: sentence("electrode"),
 }
 
 
@@ -113,17 +128,22 @@ class ProcedureState:
         tool: what the shaft stands for now.
         deposits: how often local anaesthetic was given.
         samples: what each sample was, in order.
+        ablation: how it stands with electrodes; None where none are asked for.
     """
 
     part: ProcedurePart
     tool: Tool
     deposits: int = 0
     samples: tuple[SampleMark, ...] = ()
+    ablation: AblationState | None = None
 
     @classmethod
-    def at_begin(cls, part: ProcedurePart) -> ProcedureState:
+    def at_begin(
+        cls, part: ProcedurePart, ablation: AblationState | None = None
+    ) -> ProcedureState:
         """Return the state with which an attempt begins."""
-        return cls(part, Tool.STYLET if part.anaesthetic is None else Tool.ANAESTHETIC)
+        tool = _own_tool(part) if part.anaesthetic is None else Tool.ANAESTHETIC
+        return cls(part, tool, ablation=ablation)
 
     @property
     def words(self) -> str:
@@ -137,13 +157,18 @@ class ProcedureState:
 
     def refusal(self, step: Step) -> str:
         """Return why a step cannot follow now; empty if it can."""
-        if step is not Step.TAKE_NEEDLE and step is not Step.INJECT and self.part.biopsy is None:
+        if step in OF_ABLATION and self.ablation is None:
+            return sentence("this exercise ablates nothing")
+        gun = step not in (Step.TAKE_NEEDLE, Step.INJECT, *OF_ABLATION)
+        if gun and self.part.biopsy is None:
             return sentence("this exercise takes no samples")
         if self.tool not in _FROM[step]:
             return sentence(
                 "not possible now: held is the {tool}",
                 tool=TOOL_WORDS[self.tool],
             )
+        if step in OF_ABLATION and self.ablation is not None:
+            return self.ablation.refusal(step.value)
         anaesthetic, biopsy = self.part.anaesthetic, self.part.biopsy
         if step is Step.INJECT and anaesthetic and self.deposits >= anaesthetic.most_deposits:
             return sentence("the syringe is empty after {count} times", count=self.deposits)
@@ -152,6 +177,11 @@ class ProcedureState:
                 "{count} samples were taken: the exercise allows no more", count=len(self.samples)
             )
         return ""
+
+
+def _own_tool(part: ProcedurePart) -> Tool:
+    """Return what the exercise's own needle is."""
+    return Tool.STYLET if part.ablation is None else Tool.ELECTRODE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -209,7 +239,8 @@ def perform(
         look: the needle now; None where nobody has seen it yet.
         placed: the plan, for where the patient lies.
         field: of the patient's tissue.
-        throw: which of the gun's settings, for `FIRE`.
+        throw: which of the gun's settings, for `FIRE`; which row of the generator's table, for
+            `ABLATE`.
         notch_deg: direction of the notch, for `FIRE`.
         time: monotonic time [s].
 
@@ -221,9 +252,14 @@ def perform(
     """
     if refusal := state.refusal(step):
         raise ProcedureNotPossibleError(refusal)
-    _require_place(step, look)
+    if step is not Step.ABLATE:
+        _require_place(step, look)
     data: dict[str, object] = {"version": VERSION, "step": step.value}
-    state = replace(state, tool=_TO.get(step, state.tool))
+    if step in OF_ABLATION:
+        state, words, more = _of_ablation(state, step, look, field, throw)
+        return state, words, data | more
+    tool = _own_tool(state.part) if step is Step.TAKE_NEEDLE else _TO.get(step, state.tool)
+    state = replace(state, tool=tool)
     words = STEP_WORDS[step]
     if step not in (Step.INJECT, Step.FIRE):
         return state, words, data
@@ -258,6 +294,7 @@ def marks_of(
     taken: list[SampleMark] = []
     needle_from: float | None = None
     open_from: float | None = None
+    ablated: AblationMark | None = None
     opened: list[tuple[float, float]] = []
     for event, step in steps:
         data: dict[str, Any] = dict(event.data)
@@ -271,6 +308,8 @@ def marks_of(
                 )
             elif step is Step.FIRE:
                 taken.append(_mark(event.time, data))
+            elif step is Step.ABLATE:
+                ablated = ablating.mark_of(data)
         if step is Step.TAKE_NEEDLE:
             needle_from = event.time
         if step in (Step.STYLET_OUT, Step.GUN_OUT) and open_from is None:
@@ -285,7 +324,7 @@ def marks_of(
         needle_from = np.inf  # it was never taken
     before = tuple(one for one in met or () if needle_from is not None and one.time < needle_from)
     return ProcedureMarks(
-        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before
+        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before, ablated
     )
 
 
@@ -352,6 +391,24 @@ def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | Non
     way = to_patient.rotate(look.tip_axis)
     target_mm = to_patient @ placed.p_target / MILLIMETRE
     return _Needle(look.depth / MILLIMETRE, tip_mm, way / np.linalg.norm(way), target_mm)
+
+
+def _of_ablation(
+    state: ProcedureState,
+    step: Step,
+    look: NeedleNow | None,
+    field: TissueField | None,
+    row: int,
+) -> tuple[ProcedureState, str, dict[str, object]]:
+    ablation = state.ablation
+    if ablation is None or look is None:
+        raise ProcedureNotPossibleError(sentence("this exercise ablates nothing"))
+    if step is Step.ABLATE:
+        ablation, data = ablation.ablate(row)
+        return replace(state, ablation=ablation), STEP_WORDS[step], data
+    of_needle = look.p_tip, look.tip_axis, look.depth, look.p_target
+    ablation, data = ablation.place(ablating.electrode_at(*of_needle, ablation.aim, field))
+    return replace(state, ablation=ablation), ablating.electrode_words(ablation), data
 
 
 def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit:

@@ -123,7 +123,10 @@ class Snapshot:
         Args:
             placed: of the run.
         """
-        return placed if self.touch is None else self.touch.aim
+        if self.touch is not None:
+            return self.touch.aim
+        electrodes = None if self.procedure is None else self.procedure.ablation
+        return placed if electrodes is None else electrodes.aim
 
 
 def excursion(snapshot: Snapshot) -> float | None:

@@ -27,7 +27,7 @@ Inside = Callable[[FloatArray], NDArray[np.bool_]]
 MOST_MM: Final = 20.0
 """A margin that is larger, or that nothing limits, counts as this."""
 
-STEP_MM: Final = 0.5
+STEP_MM: Final = 0.6
 """The union's surface is looked at in places so far apart."""
 
 _WIDE: Final = 2.0  # half width of the smeared step, in cells
@@ -127,7 +127,7 @@ def bare_surface(zones: Sequence[Zone], step_mm: float = STEP_MM) -> FloatArray:
             return own
         places.append(own[~in_union(others, own)])
         for k, other in enumerate(others):
-            crease = _crease(zone, other, own, 2.0 * step_mm)
+            crease = _crease(zone, other, own, step_mm)
             rest = others[:k] + others[k + 1 :]
             if rest:
                 crease = crease[~in_union(rest, crease)]
