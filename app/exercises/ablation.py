@@ -126,9 +126,7 @@ def electrode_plans(part: AblationPart, placed: PlacedPlan) -> tuple[PlacedPlan,
     return tuple(plans)
 
 
-def check_electrodes(
-    part: AblationPart | None, placed: PlacedPlan, profile: DeviceProfile
-) -> None:
+def check_electrodes(part: AblationPart | None, placed: PlacedPlan, profile: DeviceProfile) -> None:
     """Refuse electrodes that the machine cannot bring to their place.
 
     Args:

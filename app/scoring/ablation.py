@@ -36,5 +36,6 @@ class AblationMark:
     def __post_init__(self) -> None:
         numbers = self.least_margin_mm, self.planned_margin_mm, self.share, self.spacing_error_mm
         if not all(map(isfinite, numbers)) or not 0.0 <= self.share <= 1.0:
-            raise TrajectoryError(sentence("an ablation of the record is none: {numbers}", numbers=numbers))
-
+            raise TrajectoryError(
+                sentence("an ablation of the record is none: {numbers}", numbers=numbers)
+            )

@@ -302,7 +302,9 @@ def _map(planned: Ablation, reached: Ablation) -> dict[str, object]:
 def electrode_words(state: AblationState) -> str:
     """Say that an electrode was left in place, which `state` has counted already."""
     return sentence(
-        "electrode {number} of {of} left in place", number=len(state.electrodes), of=len(state.plans)
+        "electrode {number} of {of} left in place",
+        number=len(state.electrodes),
+        of=len(state.plans),
     )
 
 

@@ -138,9 +138,7 @@ class ProcedureState:
     ablation: AblationState | None = None
 
     @classmethod
-    def at_begin(
-        cls, part: ProcedurePart, ablation: AblationState | None = None
-    ) -> ProcedureState:
+    def at_begin(cls, part: ProcedurePart, ablation: AblationState | None = None) -> ProcedureState:
         """Return the state with which an attempt begins."""
         tool = _own_tool(part) if part.anaesthetic is None else Tool.ANAESTHETIC
         return cls(part, tool, ablation=ablation)

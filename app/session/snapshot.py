@@ -23,7 +23,7 @@ from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
 from app.session.procedure import ProcedureState
 from app.session.recorder import RecordingStatus
-from app.session.touching import TouchState
+from app.session.touching import TargetMarks, TouchState
 from app.session.transitions import PauseCause
 from app.tracking.fix import FixStatus
 
@@ -117,16 +117,32 @@ class Snapshot:
     pause: PauseCause | None = None
     simulated: bool = False
 
+    @property
+    def aim(self) -> PlacedPlan | None:
+        """Return the path to the target at hand, where there are several; else None."""
+        if self.touch is not None:
+            return self.touch.aim
+        electrodes = None if self.procedure is None else self.procedure.ablation
+        return None if electrodes is None else electrodes.aim
+
+    @property
+    def target_marks(self) -> TargetMarks | None:
+        """Return the targets as they are drawn, where there are several; else None."""
+        if self.touch is not None:
+            return self.touch.marks
+        electrodes = None if self.procedure is None else self.procedure.ablation
+        if electrodes is None:
+            return None
+        points = np.array([plan.plan.target_mm for plan in electrodes.plans])
+        return TargetMarks(points, len(electrodes.electrodes))
+
     def at_rest(self, placed: PlacedPlan) -> PlacedPlan:
         """Return the plan whose target is the present one where it rests.
 
         Args:
             placed: of the run.
         """
-        if self.touch is not None:
-            return self.touch.aim
-        electrodes = None if self.procedure is None else self.procedure.ablation
-        return placed if electrodes is None else electrodes.aim
+        return self.aim or placed
 
 
 def excursion(snapshot: Snapshot) -> float | None:

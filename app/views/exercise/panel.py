@@ -27,6 +27,7 @@ from app.planning.plan import Plan
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import Handle
 from app.session.snapshot import BreathHold, Snapshot
+from app.views.exercise.ablation_panel import AblationPanel
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.enable_switch import EnableSwitch
@@ -371,7 +372,8 @@ class AttemptTools(QWidget):
     """What is pressed and answered in an attempt: beside the rest of the panel, or in the rail.
 
     Attributes:
-        buttons, withdrawal, enable, breath, bevel, touch, procedure, scan: from the top.
+        buttons, withdrawal, enable, breath, bevel, touch, procedure, ablation, scan: from
+            the top.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -384,6 +386,7 @@ class AttemptTools(QWidget):
         self.bevel.hide()
         self.touch = TouchNote(self)
         self.procedure = ProcedurePanel(self)
+        self.ablation = AblationPanel(self)
         self.scan = ScanPanel(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -396,6 +399,7 @@ class AttemptTools(QWidget):
             self.bevel,
             self.touch,
             self.procedure,
+            self.ablation,
             self.scan,
         ):
             column.addWidget(widget)
@@ -449,7 +453,7 @@ class ExercisePanel(QWidget):
         tools = self.tools
         self.buttons, self.withdrawal, self.enable = tools.buttons, tools.withdrawal, tools.enable
         self.breath, self.bevel, self.touch = tools.breath, tools.bevel, tools.touch
-        self.procedure, self.scan = tools.procedure, tools.scan
+        self.procedure, self.scan, self.ablation = tools.procedure, tools.scan, tools.ablation
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -485,6 +489,7 @@ class ExercisePanel(QWidget):
         self.buttons.listen(page)
         self.breath.listen(page)
         self.procedure.listen(page)
+        self.ablation.listen(page)
 
     def set_exercises(
         self, exercises: Sequence[tuple[str, str]], chosen: str | None = None
@@ -593,6 +598,7 @@ class ExercisePanel(QWidget):
         self.breath.show_breath(None, False)
         self.touch.hide()
         self.procedure.show_procedure(None, False)
+        self.ablation.show_ablation(None, False)
         self.energy.show_energy(None)
 
     def set_waiting(self, reason: str) -> None:
