@@ -117,10 +117,11 @@ def electrode_plans(part: AblationPart, placed: PlacedPlan) -> tuple[PlacedPlan,
     plans = [placed]
     for number, one in enumerate(part.electrodes, start=2):
         try:
-            plan = Plan(placed.plan.entry_mm, one.target_mm, f"electrode {number}")
+            target = np.array(one.target_mm, dtype=np.float64)
+            plan = Plan(placed.plan.entry_mm, target, f"electrode {number}")
         except PlanError as error:
             raise ExerciseError(
-                sentence("ablation: electrode {number}: {error}", number=number, error=error)
+                sentence("ablation: electrode {electrode}: {error}", electrode=number, error=error)
             ) from error
         plans.append(PlacedPlan.of(plan, placed.placement, placed.p_entry))
     return tuple(plans)
@@ -145,8 +146,8 @@ def check_electrodes(part: AblationPart | None, placed: PlacedPlan, profile: Dev
         if reasons:
             raise ExerciseError(
                 sentence(
-                    "ablation: electrode {number} cannot be placed with {profile_name}: {reasons}",
-                    number=number,
+                    "ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}",
+                    electrode=number,
                     profile_name=profile.name,
                     reasons=joined("; ", reasons),
                 )

@@ -179,9 +179,9 @@ class AblationState:
             if apart < LEAST_APART_MM:
                 raise ProcedureNotPossibleError(
                     sentence(
-                        "electrode {number} is {apart:.1f} mm from here: two at one place ablate "
-                        "one zone; draw back and go at least {least:g} mm beside it",
-                        number=number,
+                        "electrode {electrode} is {apart:.1f} mm from here: two at one place "
+                        "ablate one zone; draw back and go at least {least:g} mm beside it",
+                        electrode=number,
                         apart=apart,
                         least=LEAST_APART_MM,
                     )
@@ -208,8 +208,8 @@ class AblationState:
         if not 0 <= row < len(self.table.rows):
             raise ProcedureNotPossibleError(
                 sentence(
-                    "row {number} of the generator's table: there are 0 to {most}",
-                    number=row,
+                    "row {row} of the generator's table: there are 0 to {most}",
+                    row=row,
                     most=len(self.table.rows) - 1,
                 )
             )
@@ -302,8 +302,8 @@ def _map(planned: Ablation, reached: Ablation) -> dict[str, object]:
 def electrode_words(state: AblationState) -> str:
     """Say that an electrode was left in place, which `state` has counted already."""
     return sentence(
-        "electrode {number} of {of} left in place",
-        number=len(state.electrodes),
+        "electrode {electrode} of {of} left in place",
+        electrode=len(state.electrodes),
         of=len(state.plans),
     )
 

@@ -20,7 +20,7 @@ from app.core.arrays import FloatArray
 from app.planning.ablation.zone import Zone
 
 Depths = Callable[[FloatArray], FloatArray]
-"""Places (n, 3) -> how deep they lie below a surface [mm], negative outside, about exact near it."""
+"""Places (n, 3) -> how deep they lie below a surface [mm], negative outside, exact near it."""
 
 Inside = Callable[[FloatArray], NDArray[np.bool_]]
 

@@ -1,4 +1,4 @@
-"""The zone that one electrode ablates: a spheroid about the needle's axis, and how deep in it one is.
+"""The zone that one electrode ablates: a spheroid about the needle's axis, and depths in it.
 
 Tables of generators give the long axis, along the needle, and the short one, across it; the zone is
 taken as the ellipsoid of revolution with these two (as the tables' own volumes are). What a vessel

@@ -23,7 +23,7 @@ class AblationView:
         if state is not self._drawn:
             self._drawn = state
             shown = None if state is None else AblationShown.of_state(state)
-            for pane in (*self._workspace.panes, *self._workspace.needle_panes):
+            for pane in self._workspace.slices:
                 if pane not in self._layers:
                     self._layers[pane] = ZonesLayer(pane.canvas)
                 self._layers[pane].set_shown(shown)
