@@ -1,4 +1,4 @@
-"""A liver with a round lesion, a vessel and gut beside it, and three electrodes through one entry."""
+"""A liver with a round lesion, a vessel and gut beside it, and three electrodes by one entry."""
 
 import numpy as np
 
@@ -59,7 +59,11 @@ def begin(field, asked=None):
     return ProcedureState.at_begin(asked, AblationState.of(asked, placed(), field))
 
 
-def needle(plan, off=(0.0, 0.0, 0.0), depth=None):
-    """Return the needle whose tip is at a path's target, or off it [m, in world]."""
+def needle(plan, off=(0.0, 0.0, 0.0), depth=None, target=None):
+    """Return the needle whose tip is at a path's target, or off it [m, in world].
+
+    `target` is where the one at hand is now; None for that of the path, which rests.
+    """
     tip = plan.p_target + np.array(off)
-    return NeedleNow(tip, plan.axis, plan.length if depth is None else depth, plan.p_target, True)
+    target = plan.p_target if target is None else target
+    return NeedleNow(tip, plan.axis, plan.length if depth is None else depth, target, True)

@@ -146,7 +146,8 @@ def check_electrodes(part: AblationPart | None, placed: PlacedPlan, profile: Dev
         if reasons:
             raise ExerciseError(
                 sentence(
-                    "ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}",
+                    "ablation: electrode {electrode} cannot be placed with {profile_name}: "
+                    "{reasons}",
                     electrode=number,
                     profile_name=profile.name,
                     reasons=joined("; ", reasons),

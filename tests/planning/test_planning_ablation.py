@@ -1,5 +1,7 @@
 """Zones of a generator, what they cover, and the margin, against integrals of another kind."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -50,7 +52,7 @@ def area_of_union_in(lesion, discs):
             half = np.arccos((d * d + r * r - s * s) / (2.0 * d * r))
             turns += [(towards - half) % (2.0 * np.pi), (towards + half) % (2.0 * np.pi)]
         turns = sorted(turns)
-        for p, q in zip(turns[:-1], turns[1:], strict=True):
+        for p, q in pairwise(turns):
             if q - p < 1e-12:
                 continue
             x, y = cx + r * np.cos(0.5 * (p + q)), cy + r * np.sin(0.5 * (p + q))

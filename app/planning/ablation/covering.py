@@ -87,10 +87,8 @@ def volumes(
         if size <= smallest * 1.001:
             steps = smeared(in_lesion / reach)
             whole += float(steps.sum()) * size**3
-            left = np.ones(len(centres))
-            for zone in zones:
-                left *= 1.0 - smeared(zone.about_mm(centres) / reach)
-            covered += float((steps * (1.0 - left)).sum()) * size**3
+            both = smeared(np.minimum(in_lesion, in_zones) / reach)
+            covered += float(both.sum()) * size**3
             break
         near = _HALF_DIAGONAL * size + reach
         # First order distances may be short of the true one: cells are halved twice as near.

@@ -158,7 +158,11 @@ def _on_ellipse(e: FloatArray, y: FloatArray) -> FloatArray:
     s = 0.5 * (low + high)
     x0 = np.minimum(ratio * y[0] / np.maximum(s + ratio - 1.0, 1e-300), e0)
     x1 = np.where(z[1] > 0.0, y[1] / np.maximum(s, 1e-300), 0.0)
-    # On the long axis, near the middle, the nearest point lies off it.
-    flat = (z[1] <= 0.0) | (s <= 0.0)
+    # On the long axis near the middle the nearest point lies off it, and s says little: there x0
+    # is what is known. In a ball it is the other way about.
+    flat = (z[1] <= 0.0) | ((s < 1e-5) & (ratio > 1.0 + 1e-3))
     x1 = np.where(flat, e1 * np.sqrt(np.maximum(0.0, 1.0 - (x0 / e0) ** 2)), x1)
-    return np.stack([x0, np.minimum(x1, e1)])
+    level = np.hypot(x0 / e0, x1 / e1)
+    none = ~(np.isfinite(level) & (level > 1e-9))
+    x0, x1 = np.where(none, 0.0, x0), np.where(none, e1, x1)
+    return np.stack([x0, x1]) / np.where(none, 1.0, level)
