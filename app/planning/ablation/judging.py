@@ -18,11 +18,10 @@ from scipy import ndimage
 
 from app.core.arrays import FloatArray, read_only
 from app.imaging.field.naming import LUNG_VESSEL, SMALL_VESSEL
-from app.imaging.field.tissue_field import TissueField, TissueKind
+from app.imaging.field.tissue_field import STEPS_PER_MM, TissueField, TissueKind
 from app.imaging.field.walking import holding
 from app.planning.ablation.covering import (
     MOST_MM,
-    Depths,
     depths_in_union,
     in_union,
     margins_mm,
@@ -40,8 +39,7 @@ REACHED_MM3: Final = 20.0
 MAP_STEP_MM: Final = 1.5
 """Places of the lesion's surface at which the margin is kept lie about so far apart."""
 
-_GRID_MM: Final = 1.0
-_FAR_MM: Final = 3.0
+_BESIDE: Final = 4  # voxels about the lesion within which depths are known
 _SMALL: Final = frozenset({SMALL_VESSEL, LUNG_VESSEL})
 _HARMED: Final = (
     TissueKind.SKIN,
@@ -52,6 +50,83 @@ _HARMED: Final = (
 )
 _NAMED: Final = frozenset({"diaphragm"})
 _MOST_VOXELS: Final = 100  # to each side of the target that are searched for the lesion
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Signed:
+    """Depth below a lesion's surface on the field's own voxels, trilinear between them.
+
+    Inside it is the field's own distance, and outside too where that can be the lesion's wall;
+    where another wall is nearer, it is the way to the nearest voxel of the lesion less its own.
+
+    Attributes:
+        depth_mm: of each voxel, shape (nz, ny, nx).
+        affine_mm: its voxel (i, j, k) -> LPS, shape (4, 4).
+        box_mm: corners that hold the lesion, each of shape (3,).
+    """
+
+    depth_mm: FloatArray
+    affine_mm: FloatArray
+    box_mm: tuple[FloatArray, FloatArray]
+
+    @classmethod
+    def of(cls, field: TissueField, code: int, target: FloatArray) -> _Signed:
+        to_voxel, shape = field.inverse_mm, np.array(field.labels.shape[::-1])
+        ijk = np.rint(to_voxel[:3, :3] @ target + to_voxel[:3, 3]).astype(int)
+        first = np.clip(ijk - _MOST_VOXELS, 0, shape - 1)
+        last = np.clip(ijk + _MOST_VOXELS + 1, 1, shape)
+        part = field.labels[first[2] : last[2], first[1] : last[1], first[0] : last[0]] == code
+        pieces, _ = ndimage.label(part, np.ones((3, 3, 3), int))
+        at = np.argwhere(pieces > 0)
+        near = at[int(np.argmin(((at[:, ::-1] + first - ijk) ** 2).sum(axis=1)))]
+        own = pieces == pieces[tuple(near)]
+        inside = np.argwhere(own)
+        low = np.maximum(inside.min(axis=0) - _BESIDE, 0)
+        high = np.minimum(inside.max(axis=0) + _BESIDE + 1, own.shape)
+        cut = tuple(slice(a, b) for a, b in zip(low, high, strict=True))
+        own, begin = own[cut], low + first[::-1]
+        held = field.distance[tuple(slice(a, a + n) for a, n in zip(begin, own.shape, strict=True))]
+        distance = held / STEPS_PER_MM
+        way, index = ndimage.distance_transform_edt(
+            ~own, sampling=field.spacing_mm[::-1], return_indices=True
+        )
+        # No farther than by that voxel; and as far as the field says where it means this wall.
+        most = np.maximum(way - distance[tuple(index)], 0.01)
+        means_it = (most - distance < float(field.spacing_mm.max())) & (distance <= most)
+        depth = np.where(own, distance, -np.where(means_it, distance, most))
+        affine = np.array(field.affine_mm)
+        affine[:3, 3] += affine[:3, :3] @ begin[::-1]
+        corners = np.where(np.array(list(np.ndindex(2, 2, 2))), np.array(own.shape[::-1]) - 1, 0)
+        places = corners @ affine[:3, :3].T + affine[:3, 3]
+        return cls(read_only(depth), read_only(affine), (places.min(axis=0), places.max(axis=0)))
+
+    def depths_mm(self, points_mm: FloatArray) -> FloatArray:
+        """Return how deep places lie below the surface [mm], negative outside."""
+        return self._between(self.depth_mm, points_mm)
+
+    def surface_mm(self) -> FloatArray:
+        """Return places of the surface, one for each voxel beside it, LPS, shape (n, 3)."""
+        k, j, i = np.indices(self.depth_mm.shape).reshape(3, -1)
+        close = np.abs(self.depth_mm.ravel()) < 1.1 * self._widest
+        at = np.column_stack([i, j, k])[close]
+        points = at @ self.affine_mm[:3, :3].T + self.affine_mm[:3, 3]
+        slopes = np.gradient(self.depth_mm)[::-1]
+        by_mm = np.linalg.inv(self.affine_mm[:3, :3])
+        for _ in range(5):
+            rise = np.stack([self._between(one, points) for one in slopes], axis=1) @ by_mm
+            steep = np.maximum((rise * rise).sum(axis=1), 0.25)
+            points = points - (self.depths_mm(points) / steep)[:, None] * rise
+        return np.asarray(points[np.abs(self.depths_mm(points)) < 0.1])
+
+    @property
+    def _widest(self) -> float:
+        return float(np.linalg.norm(self.affine_mm[:3, :3], axis=0).max())
+
+    def _between(self, values: FloatArray, points_mm: FloatArray) -> FloatArray:
+        inverse = np.linalg.inv(self.affine_mm)
+        ijk = np.asarray(points_mm, np.float64) @ inverse[:3, :3].T + inverse[:3, 3]
+        found = ndimage.map_coordinates(values, ijk.T[::-1], order=1, mode="nearest")
+        return np.asarray(found, np.float64)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,6 +148,7 @@ class Lesion:
     box_mm: tuple[FloatArray, FloatArray]
     surface_mm: FloatArray
     volume_mm3: float
+    _shape: _Signed
 
     @classmethod
     def at(cls, field: TissueField, target_mm: ArrayLike) -> Lesion:
@@ -83,21 +159,14 @@ class Lesion:
         """
         target = np.asarray(target_mm, np.float64)
         code = lesion_code(field, target)
-        low, high = _box(field, code, target)
-        depths = _depths(field, code)
-        axes = [np.arange(a, b + _GRID_MM, _GRID_MM) for a, b in zip(low, high, strict=True)]
-        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-        looked = field.look_up(grid)
-        near = (looked.code == code) & (looked.other >= 0) & (looked.wall_mm < 1.2 * _GRID_MM)
-        surface = grid[near] + looked.wall_mm[near, None] * looked.normal[near]
-        surface = _on_wall(depths, field, surface)
-        volume, _ = volumes(depths, (), (low, high), cells=32)
+        shape = _Signed.of(field, code, target)
+        volume, _ = volumes(shape.depths_mm, (), shape.box_mm, cells=48)
         held = holding(field, target)
-        return cls(field, code, held, (low, high), read_only(surface), volume)
+        return cls(field, code, held, shape.box_mm, read_only(shape.surface_mm()), volume, shape)
 
     def depths_mm(self, points_mm: FloatArray) -> FloatArray:
-        """Return how deep places lie below the lesion's surface [mm], 3 mm at most."""
-        return _depths(self.field, self.code)(points_mm)
+        """Return how deep places lie below the lesion's surface [mm], negative outside."""
+        return self._shape.depths_mm(points_mm)
 
     def in_organ(self, points_mm: FloatArray) -> NDArray[np.bool_]:
         """Return which places belong to the lesion's organ, shape (n,).
@@ -253,46 +322,6 @@ def _counts(kind: TissueKind, name: str) -> bool:
     if kind in (TissueKind.AIR, TissueKind.UNKNOWN):
         return True  # the zone leaves the body, or what anybody labelled
     return kind in _HARMED or kind is TissueKind.ORGAN or name in _NAMED
-
-
-def _depths(field: TissueField, code: int) -> Depths:
-    """Return the depth of places below the surface of a tissue, by the field's own rule."""
-
-    def depths(points: FloatArray) -> FloatArray:
-        looked = field.look_up(points)
-        wall = np.where(looked.other >= 0, np.minimum(looked.wall_mm, _FAR_MM), _FAR_MM)
-        beside = np.where(looked.other == code, -wall, -_FAR_MM)
-        return np.asarray(np.where(looked.code == code, wall, beside))
-
-    return depths
-
-
-def _on_wall(depths: Depths, field: TissueField, points: FloatArray) -> FloatArray:
-    """Move places near a tissue's surface onto it."""
-    for _ in range(3):
-        looked = field.look_up(points)
-        depth = depths(points)
-        out = np.where((depth >= 0.0)[:, None], looked.normal, -looked.normal)
-        points = points + np.where(np.abs(depth) < _FAR_MM, depth, 0.0)[:, None] * out
-    return points[np.abs(depths(points)) < 0.1]
-
-
-def _box(field: TissueField, code: int, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of what hangs together about a target and has its code."""
-    to_voxel = field.inverse_mm
-    ijk = np.rint(to_voxel[:3, :3] @ target + to_voxel[:3, 3]).astype(int)
-    shape = np.array(field.labels.shape[::-1])
-    first = np.clip(ijk - _MOST_VOXELS, 0, shape - 1)
-    last = np.clip(ijk + _MOST_VOXELS + 1, 1, shape)
-    part = field.labels[first[2] : last[2], first[1] : last[1], first[0] : last[0]] == code
-    pieces, _ = ndimage.label(part, np.ones((3, 3, 3), int))
-    at = np.argwhere(pieces > 0)[:, ::-1]
-    near = at[int(np.argmin(((at + first - ijk) ** 2).sum(axis=1)))]
-    own = np.argwhere(pieces == pieces[near[2], near[1], near[0]])[:, ::-1] + first
-    corners = np.array(list(np.ndindex(2, 2, 2)))
-    ends = own.min(axis=0) - 1 + corners * (own.max(axis=0) - own.min(axis=0) + 2)
-    places = ends @ field.affine_mm[:3, :3].T + field.affine_mm[:3, 3]
-    return places.min(axis=0), places.max(axis=0)
 
 
 def _thinned(points: FloatArray, step_mm: float) -> NDArray[np.intp]:
