@@ -56,7 +56,7 @@ def placed(target=TARGETS[0]):
 def begin(field, asked=None):
     """Return how an attempt begins."""
     asked = asked or part()
-    return ProcedureState.at_begin(asked, AblationState.of(asked, placed(), field))
+    return ProcedureState.at_begin(asked, ablation=AblationState.of(asked, placed(), field))
 
 
 def needle(plan, off=(0.0, 0.0, 0.0), depth=None, target=None):

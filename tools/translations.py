@@ -23,6 +23,7 @@ from xml.etree import ElementTree
 from app.core import paths
 from app.core.language import folder
 from app.exercises.library import load_exercise
+from app.session.course_plan import course_plans
 
 ROOT = Path(__file__).resolve().parents[1]
 ALIASES = "tr+=sentence,tr+=template"
@@ -36,7 +37,7 @@ def declared_texts() -> list[str]:
     """Return the texts that `lupdate` does not see.
 
     Titles of declarations in `app`, texts marked inside f-strings, titles and descriptions of
-    shipped exercises.
+    exercises and plans of courses that ship.
     """
     texts: set[str] = set()
     for path in (ROOT / "app").rglob("*.py"):
@@ -48,6 +49,8 @@ def declared_texts() -> list[str]:
     for file in (paths.resources() / "exercises").glob("*.yaml"):
         exercise = load_exercise(file.stem)
         texts.update(text for text in (exercise.title, exercise.description) if text)
+    for plan in course_plans():
+        texts.update(text for text in (plan.title, plan.description) if text)
     return sorted(texts)
 
 

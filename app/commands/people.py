@@ -1,5 +1,6 @@
 """`acus people` and `acus course`: students, groups, the instructor; exercises for them."""
 
+import datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -41,6 +42,8 @@ def register(app: typer.Typer) -> None:
     course.command("list")(list_courses)
     course.command("show")(show_course)
     course.command("save")(save_course)
+    course.command("begin")(begin_course)
+    course.command("plans")(list_plans)
     app.add_typer(course, name="course")
 
 
@@ -314,6 +317,58 @@ def save_course(
     path = course.save()
     lines.insert(0, sentence("{title} saved: {path}", title=course.title, path=path))
     return Answer({"files": [path], "problems": problems}, lines, yes=not problems)
+
+
+def begin_course(
+    plan: Annotated[str, typer.Argument(metavar="PLAN", help="See `acus course plans`.")],
+    on: Annotated[str, typer.Option(help="First day, such as 2026-11-30.")],
+    group: Annotated[list[str] | None, typer.Option(help="Who takes it; repeat.")] = None,
+    name: Annotated[str, typer.Option(help="File name; default: the plan's, with the month.")] = "",
+) -> Answer:
+    """Begin a course by a plan on a day (instructor). Code 3 if its exercises are not all here."""
+    from app.session.course import courses, newest_versions, pinned_problems
+    from app.session.course_plan import find_course_plan
+
+    instructor()
+    try:
+        first = datetime.date.fromisoformat(on)
+    except ValueError as error:
+        raise typer.BadParameter(
+            sentence("{day!r} is no day; give one such as 2026-11-30", day=on)
+        ) from error
+    course = find_course_plan(plan).begun(first, tuple(group or ()), name)
+    if any(other.id == course.id for other in courses()[0]):
+        raise typer.BadParameter(
+            sentence(
+                "a course {id} is there already: give another --name, or change it in the window",
+                id=course.id,
+            )
+        )
+    course = course.pinned(newest_versions())
+    problems = pinned_problems(course)
+    if problems:
+        lines = [joined(" ", ("✖", problem)) for problem in problems]
+        return Answer({"files": [], "problems": problems}, lines, yes=False)
+    path = course.save()
+    saved = sentence("{title} saved: {path}", title=course.title, path=path)
+    return Answer({"files": [path], "problems": []}, [saved])
+
+
+def list_plans() -> Answer:
+    """List the plans by which a course can be begun."""
+    from app.session.course_plan import course_plans
+
+    plans = course_plans()
+    lines = [
+        sentence(
+            "{id:32} {units} units  {title}",
+            id=plan.id,
+            units=len(plan.units),
+            title=plan.title,
+        )
+        for plan in plans
+    ]
+    return Answer({"plans": [plan.model_dump(mode="json") for plan in plans]}, lines)
 
 
 def _new_password() -> str:

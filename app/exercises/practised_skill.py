@@ -30,6 +30,7 @@ class PractisedSkill(StrEnum):
     BREATH = "breath"
     CLEARANCE = "clearance"
     PLAN = "plan"
+    PROCEDURE = "procedure"
     MACHINE = "machine"
 
 
@@ -37,6 +38,8 @@ def practised_skill(exercise: Exercise) -> PractisedSkill:
     """Return the skill that an exercise practises most."""
     if exercise.touch is not None or _kind(exercise.device) != DEFAULT_KIND:
         return PractisedSkill.MACHINE
+    if exercise.procedure is not None:
+        return PractisedSkill.PROCEDURE
     if exercise.is_own_plan or exercise.guidance_mode is GuidanceMode.CONTROL_CT:
         return PractisedSkill.PLAN
     if KEPT_CLEAR in exercise.laws or any(part.risks for part in exercise.structures):

@@ -8,6 +8,7 @@ off what has come into it: a half cylinder on the notch's side. Strnad 2021, doi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import isfinite
 from typing import Final
@@ -30,6 +31,9 @@ ACROSS: Final = 24
 
 GRAZED_MM: Final = 0.3
 """What lies on a throw for less was grazed."""
+
+AtRest = Callable[[FloatArray], FloatArray]
+"""Where the tissue at places rests, LPS [mm], shape (n, 3) -> (n, 3)."""
 
 _NO_LESION: Final = (TissueKind.UNKNOWN, TissueKind.AIR, TissueKind.LUNG, TissueKind.SKIN)
 _HARMED: Final = (TissueKind.VESSEL, TissueKind.HEART, TissueKind.GUT, TissueKind.BONE)
@@ -143,16 +147,18 @@ def core(
     throw: Throw,
     target_mm: ArrayLike,
     notch_deg: float = 0.0,
+    at_rest: AtRest | None = None,
 ) -> Core:
     """Take a sample.
 
     Args:
         field: of the patient.
-        tip_mm: of the outer needle, where the tissue about it rests, LPS, shape (3,).
+        tip_mm: of the outer needle, LPS, shape (3,).
         axis: direction in which the tip goes on, shape (3,).
         throw: of the gun.
-        target_mm: of the lesion.
+        target_mm: of the lesion at rest.
         notch_deg: direction of the notch about the axis, as `notch_side` counts it.
+        at_rest: says where the tissue at places rests, as breathing has it; None where all rests.
 
     Raises:
         PlanError: if nobody labelled a lesion at the target, or the axis is none.
@@ -162,9 +168,10 @@ def core(
     tip = frozen(tip_mm, (3,), "tip_mm")
     begin, end = throw.notch_span_mm
     places = _half_cylinder(tip, way, (begin, end), throw.radius_mm, notch_deg)
+    places = places if at_rest is None else at_rest(places)
     share = float((field.codes_at(places) == lesion).mean())
     volume = 0.5 * np.pi * throw.radius_mm**2 * throw.notch_mm
-    hits = on_the_throw(field, tip, way, throw.throw_mm, target_mm)
+    hits = on_the_throw(field, tip, way, throw.throw_mm, target_mm, at_rest)
     return Core(share * throw.notch_mm, share, float(volume), hits)
 
 
@@ -190,13 +197,20 @@ def lesion_code(field: TissueField, target_mm: ArrayLike) -> int:
 
 
 def on_the_throw(
-    field: TissueField, tip_mm: FloatArray, way: FloatArray, throw_mm: float, target_mm: ArrayLike
+    field: TissueField,
+    tip_mm: FloatArray,
+    way: FloatArray,
+    throw_mm: float,
+    target_mm: ArrayLike,
+    at_rest: AtRest | None = None,
 ) -> tuple[Ahead, ...]:
     """Return what a throw runs into and should not: vessels, bone, and what lies off the organ."""
     held = set(holding(field, target_mm).tolist())
     found = []
-    inside = bool(int(field.codes_at(tip_mm[None])[0]) in held)
-    for part in walk(field, np.stack([tip_mm, tip_mm + throw_mm * way])):
+    line = tip_mm + np.linspace(0.0, throw_mm, 2 if at_rest is None else 41)[:, None] * way
+    line = line if at_rest is None else at_rest(line)
+    inside = bool(int(field.codes_at(line[:1])[0]) in held)
+    for part in walk(field, line):
         tissue = field.tissues[part.code]
         inside = inside or part.code in held
         if part.code in held or part.length_mm < GRAZED_MM:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from math import isfinite
 
 from app.core.messages import sentence
+from app.imaging.field.tissue_field import TissueKind
 from app.scoring.ablation import AblationMark
 from app.scoring.errors import MetricUnavailableError, TrajectoryError
-from app.scoring.met import Met
+from app.scoring.met import BY_TIP, Met
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +43,7 @@ class SampleMark:
         lesion_mm: length of lesion in the core.
         is_diagnostic: whether that suffices, by the exercise.
         hits: what the throw met and should not have, in words.
+        aside_mm: distance of the core's middle line from the lesion's target; None if not known.
 
     Raises:
         TrajectoryError: if a number is not finite.
@@ -51,9 +53,10 @@ class SampleMark:
     lesion_mm: float
     is_diagnostic: bool
     hits: tuple[str, ...] = ()
+    aside_mm: float | None = None
 
     def __post_init__(self) -> None:
-        _check(self.time, self.lesion_mm)
+        _check(self.time, self.lesion_mm, self.aside_mm or 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +89,15 @@ class ProcedureMarks:
         if self.ablation is None:
             raise MetricUnavailableError(sentence("nothing was ablated"))
         return self.ablation
+
+    @property
+    def pierced(self) -> tuple[Met, ...]:
+        """Return where the needle for local anaesthetic went through pleura or capsule."""
+        return tuple(
+            one
+            for one in self.met_before
+            if one.by == BY_TIP and one.counts and (one.kind == TissueKind.LUNG or one.holds_target)
+        )
 
 
 def _check(*numbers: float) -> None:

@@ -23,7 +23,8 @@ from app.imaging.field.tissue_field import TissueField
 from app.planning.errors import PlanError
 from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
-from app.planning.sampling import core
+from app.planning.plan import Plan
+from app.planning.sampling import AtRest, SamplePlan, core, plan_sample
 from app.scoring.ablation import AblationMark
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
@@ -128,6 +129,8 @@ class ProcedureState:
         tool: what the shaft stands for now.
         deposits: how often local anaesthetic was given.
         samples: what each sample was, in order.
+        plans: where to stop for each setting of the gun by the planned path, and what its throw
+            would run into there; empty where nothing can tell.
         ablation: how it stands with electrodes; None where none are asked for.
     """
 
@@ -135,13 +138,27 @@ class ProcedureState:
     tool: Tool
     deposits: int = 0
     samples: tuple[SampleMark, ...] = ()
+    plans: tuple[SamplePlan, ...] = ()
     ablation: AblationState | None = None
 
     @classmethod
-    def at_begin(cls, part: ProcedurePart, ablation: AblationState | None = None) -> ProcedureState:
-        """Return the state with which an attempt begins."""
+    def at_begin(
+        cls,
+        part: ProcedurePart,
+        plan: Plan | None = None,
+        field: TissueField | None = None,
+        ablation: AblationState | None = None,
+    ) -> ProcedureState:
+        """Return the state with which an attempt begins, on a planned path in a field."""
+        plans: tuple[SamplePlan, ...] = ()
+        if part.biopsy is not None and plan is not None and field is not None:
+            throws = [part.biopsy.throw(number) for number in range(len(part.biopsy.throws))]
+            with suppress(PlanError):  # firing says why
+                plans = tuple(
+                    plan_sample(field, plan.entry_mm, plan.target_mm, throw) for throw in throws
+                )
         tool = _own_tool(part) if part.anaesthetic is None else Tool.ANAESTHETIC
-        return cls(part, tool, ablation=ablation)
+        return cls(part, tool, plans=plans, ablation=ablation)
 
     @property
     def words(self) -> str:
@@ -211,12 +228,20 @@ class NeedleNow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Needle:
-    """The needle where the tissue about it rests, LPS [mm]."""
+    """The needle in the patient, LPS [mm], and where the tissue about it rests."""
 
     depth_mm: float
     tip_mm: FloatArray
     way: FloatArray
     target_mm: FloatArray
+    target_now_mm: FloatArray
+    at_rest: AtRest
+
+    @property
+    def aside_mm(self) -> float:
+        """Return how far beside the target, where the breath has it, the line passes."""
+        away = self.target_now_mm - self.tip_mm
+        return float(np.linalg.norm(away - float(away @ self.way) * self.way))
 
 
 def perform(
@@ -326,9 +351,28 @@ def marks_of(
     )
 
 
+def shown_events(events: Iterable[Event]) -> tuple[Event, ...]:
+    """Leave out the steps that a time axis has no room for: those without tissue."""
+    shown = (Step.INJECT.value, Step.FIRE.value)
+    return tuple(one for one in events if one.kind != KIND or one.data.get("step") in shown)
+
+
 def begin_data(state: ProcedureState) -> dict[str, object]:
     """Return the data of the event that an attempt with steps begins with."""
-    return {"version": VERSION, "step": "", "tool": state.tool.value}
+    return {
+        "version": VERSION,
+        "step": "",
+        "tool": state.tool.value,
+        "plans": [
+            {
+                "throw_mm": plan.throw.throw_mm,
+                "stop_mm": plan.stop_mm,
+                "lesion_mm": plan.lesion_mm,
+                "hits": [str(hit.sentence) for hit in plan.hits],
+            }
+            for plan in state.plans
+        ],
+    }
 
 
 def _step(event: Event) -> Step | None:
@@ -343,6 +387,7 @@ def _mark(time: float, data: dict[str, Any]) -> SampleMark:
         float(data["lesion_mm"]),
         data["is_diagnostic"] is True,
         tuple(str(hit) for hit in data["hits"]),
+        float(data["aside_mm"]) if "aside_mm" in data else None,
     )
 
 
@@ -384,11 +429,22 @@ def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | Non
     bound = BoundField(field, placed.T_world_patient, placed.p_target)
     shift = look.p_target - placed.p_target
     shift = np.where(np.isfinite(shift), shift, 0.0)
-    to_patient = placed.T_world_patient.inverse()
-    tip_mm = to_patient @ bound.at_rest(look.p_tip[None], shift[None])[0] / MILLIMETRE
+    to_world, to_patient = placed.T_world_patient, placed.T_world_patient.inverse()
+
+    def at_rest(places_mm: FloatArray) -> FloatArray:
+        p_world = np.asarray(to_world @ (places_mm * MILLIMETRE))
+        resting = bound.at_rest(p_world, np.broadcast_to(shift, p_world.shape))
+        return np.asarray(to_patient @ resting / MILLIMETRE)
+
     way = to_patient.rotate(look.tip_axis)
-    target_mm = to_patient @ placed.p_target / MILLIMETRE
-    return _Needle(look.depth / MILLIMETRE, tip_mm, way / np.linalg.norm(way), target_mm)
+    return _Needle(
+        look.depth / MILLIMETRE,
+        to_patient @ look.p_tip / MILLIMETRE,
+        way / np.linalg.norm(way),
+        to_patient @ placed.p_target / MILLIMETRE,
+        to_patient @ (placed.p_target + shift) / MILLIMETRE,
+        at_rest,
+    )
 
 
 def _of_ablation(
@@ -433,14 +489,22 @@ def _sample(
     if not 0 <= throw < len(biopsy.throws):
         raise ProcedureNotPossibleError(
             sentence(
-                "setting {number} of the gun: there are 0 to {most}",
-                number=throw,
+                "setting {setting} of the gun: there are 0 to {most}",
+                setting=throw,
                 most=len(biopsy.throws) - 1,
             )
         )
     chosen = biopsy.throw(throw)
     try:
-        taken = core(field, needle.tip_mm, needle.way, chosen, needle.target_mm, notch_deg)
+        taken = core(
+            field,
+            needle.tip_mm,
+            needle.way,
+            chosen,
+            needle.target_mm,
+            notch_deg,
+            needle.at_rest,
+        )
     except PlanError as error:
         raise ProcedureNotPossibleError(str(error)) from error
     mark = SampleMark(
@@ -448,6 +512,7 @@ def _sample(
         taken.lesion_mm,
         taken.lesion_mm >= biopsy.diagnostic_mm,
         tuple(hit.sentence for hit in taken.hits),
+        needle.aside_mm,
     )
     return mark, {
         "throw_mm": chosen.throw_mm,
@@ -455,6 +520,7 @@ def _sample(
         "notch_deg": notch_deg,
         "lesion_mm": taken.lesion_mm,
         "lesion_share": taken.lesion_share,
+        "aside_mm": needle.aside_mm,
         "is_diagnostic": mark.is_diagnostic,
         "hits": [str(hit) for hit in mark.hits],
     }

@@ -20,12 +20,14 @@ from app.imaging.field.tissue_field import TissueKind
 from app.planning.judged import JudgedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.met import Met
+from app.scoring.procedure import ProcedureMarks
 from app.scoring.risks import RiskMark
 from app.scoring.tolerance import Bands
 from app.session.along_path import GAP_S, RUNS, AlongPath
 from app.session.attempt_clock import AttemptClock
 from app.session.machine import State
 from app.session.planned import plan_sentences
+from app.session.procedure_reasons import procedure_reasons
 
 LEAST_MM: Final = 0.3
 """Less than this towards a side, or along the path, is not spoken of [mm]: no camera knows it."""
@@ -97,6 +99,7 @@ class AttemptEvidence:
         met: what the needle met.
         risks: how near it came to structures of risk.
         planned: what a planner says of the student's own path; None where it was given.
+        steps: of the procedure; None without.
         scans: moments of the control scans [s], monotonic.
         depth_error_mm: the score's own, positive beyond the target; None where it has none.
         depth_sd_mm: its standard deviation; 0 where not known.
@@ -111,6 +114,7 @@ class AttemptEvidence:
     met: Sequence[Met] = ()
     risks: Sequence[RiskMark] = ()
     planned: JudgedPlan | None = None
+    steps: ProcedureMarks | None = None
     scans: Sequence[float] = ()
     depth_error_mm: float | None = None
     depth_sd_mm: float = 0.0
@@ -152,9 +156,10 @@ def reasons(metric: str, past: AttemptEvidence) -> tuple[str, ...]:
         parts.append(_scans)
     if metric in OF_OWN_PLANS and past.planned is not None:
         return plan_sentences(past.planned)
+    steps = procedure_reasons(metric, past.steps, lambda time: past.moment(time - past.origin))
     kinds = TISSUES.get(metric, ())
     tissues = _tissues(past, kinds) if kinds else ()
-    return (*(text for part in parts for text in part(past)), *tissues)
+    return (*(text for part in parts for text in part(past)), *tissues, *steps)
 
 
 def moment(seconds: float) -> str:

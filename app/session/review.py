@@ -22,6 +22,7 @@ from app.planning.judged import JudgedPlan
 from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.met import Met
+from app.scoring.procedure import ProcedureMarks
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.score import with_shown
@@ -41,6 +42,7 @@ from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
 from app.session.planned import judged_plan
+from app.session.procedure import marks_of, shown_events
 from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import Recording
 from app.session.result import AttemptResult
@@ -68,7 +70,7 @@ __all__ = [
     "spans",
 ]
 
-SHOWN_EVENTS: Final = ("scan", "touch", "breath", "fault", "abort")
+SHOWN_EVENTS: Final = ("scan", "touch", "breath", "procedure", "fault", "abort")
 """Kinds of events that are marked on the curves."""
 
 TURN_S: Final = 2.0
@@ -198,6 +200,7 @@ class Review:
         correction: the largest turn of the needle in the tissue; None if there was none.
         motion: where the needle was in the patient; None where nothing can be replayed.
         said: what the instructor says of it; no part of the record.
+        steps: of the procedure; None without.
         touches: events that tell of targets to be touched; none where there were none.
         tolerances: of the attempt's exercise, by metric; those left out are the default's.
         reasons: metric -> sentences that say why it cost points; those left out cost none, or the
@@ -238,6 +241,7 @@ class Review:
     correction: Correction | None = None
     motion: NeedleMotion | None = None
     said: Remarks = NOTHING_SAID
+    steps: ProcedureMarks | None = None
     touches: tuple[Event, ...] = ()
     tolerances: Mapping[str, Bands] = field(default_factory=dict)
     reasons: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
@@ -330,6 +334,7 @@ def review(recording: Recording) -> Review:
         met=tissues_met(recording.events) or (),
         risks=risk_marks(recording.events),
         planned=judged_plan(recording.events),
+        steps=marks_of(recording.events, samples, tissues_met(recording.events)),
         scans=tuple(event.time for event in recording.events if event.kind == "scan"),
         depth_error_mm=None if deep is None else deep.value,
         depth_sd_mm=0.0 if deep is None else deep.sd or 0.0,
@@ -350,7 +355,7 @@ def review(recording: Recording) -> Review:
         conditions=summary.conditions,
         curves=figures,
         spans=spans(figures.time, samples.state),
-        marks=marks(recording.events, origin, SHOWN_EVENTS),
+        marks=marks(shown_events(recording.events), origin, SHOWN_EVENTS),
         placed=placed,
         tip=np.where(measured[:, None], at_rest(samples, placed), np.nan),
         force_limit=_force_limit(recording),
@@ -369,6 +374,7 @@ def review(recording: Recording) -> Review:
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
         reasons={row.name: reasons(row.name, past) for _, row in score.losses} if score else {},
         planned=None if withheld else past.planned,
+        steps=None if withheld else past.steps,
         drill=None if exercise is None else exercise.drill,
         ablation=AblationShown.of_events(recording.events),
         practise=drill_for(score, past, exercise),

@@ -133,7 +133,7 @@ def steps_of_rows(
         field: of the patient's tissue.
         ablation: how it begins with electrodes; None without.
     """
-    state, events = ProcedureState.at_begin(part, ablation), list[Event]()
+    state, events = ProcedureState.at_begin(part, ablation=ablation), list[Event]()
     steps = ScriptedSteps(part, ablation)
     aside = np.zeros((len(phases), 3))
     seen = np.isin(samples.depth_source, FROM_CAMERAS) & samples.valid

@@ -21,7 +21,7 @@ from app.planning.placement import PlacedPlan
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
-from app.session.procedure import ProcedureState
+from app.session.procedure import ProcedureState, Tool
 from app.session.recorder import RecordingStatus
 from app.session.touching import TargetMarks, TouchState
 from app.session.transitions import PauseCause
@@ -265,6 +265,7 @@ class StepKind(StrEnum):
     HOLD = "hold"
     TOUCH = "touch"
     STAY = "stay"
+    PROCEDURE = "procedure"
     FINISH = "finish"
 
 
@@ -280,6 +281,8 @@ class NextStep:
             needle to be tilted, how far from the target its line passes.
         touch: how the attempt stands with its targets; None where there is nothing to touch.
         pause: what the attempt waits for that the student cannot mend with the needle; else None.
+        procedure: how it stands with the steps of the procedure, where one of them is next.
+        inside: whether the tip is in the body then.
     """
 
     kind: StepKind
@@ -288,6 +291,8 @@ class NextStep:
     across: float = 0.0
     touch: TouchState | None = None
     pause: PauseCause | None = None
+    procedure: ProcedureState | None = None
+    inside: bool = False
 
 
 ORDERS: Final = frozenset(
@@ -297,6 +302,11 @@ ORDERS: Final = frozenset(
     }
 )
 """Steps that say how the needle is to be moved, and when it is where it belongs."""
+
+_DURING: Final = ORDERS | {StepKind.SCAN, StepKind.LOOK}
+
+NOTCH_WITHIN: Final = 2.0 * MILLIMETRE
+"""A notch is at the lesion so near to where it belongs [m]."""
 
 CALM: Final = 0.6
 """Share of a limit below which what was asked for is done: an order does not flicker."""
@@ -338,6 +348,9 @@ class NextSteps:
             orders: whether it is said how to move it; else only what must not go on.
         """
         step = self._step(snapshot, live)
+        if snapshot.procedure is not None:
+            told = step if orders else NextStep(StepKind.LOOK) if step.kind in ORDERS else step
+            step = self._in_procedure(told, snapshot, snapshot.procedure)
         if not orders and step.kind in ORDERS:
             step = NextStep(StepKind.LOOK)
         self._last = step.kind
@@ -382,6 +395,28 @@ class NextSteps:
         if offset.remaining > self._within(StepKind.DEEPER, along, sigma_along, held):
             return NextStep(StepKind.DEEPER, distance=offset.remaining)
         return NextStep(StepKind.FINISH if snapshot.state is State.HOLDING else StepKind.HOLD)
+
+    def _in_procedure(self, step: NextStep, snapshot: Snapshot, state: ProcedureState) -> NextStep:
+        """Say which step of the procedure is next, once the needle is where it belongs."""
+        if step.kind not in _DURING:
+            return step
+        inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
+        own = NextStep(StepKind.PROCEDURE, procedure=state, inside=inside)
+        if state.tool is Tool.ANAESTHETIC:
+            aims = step.kind in (StepKind.TILT, StepKind.LOOK, StepKind.SCAN) and not inside
+            return step if aims and not state.deposits else own
+        if state.tool is not Tool.STYLET or state.part.biopsy is None:
+            return own if state.part.biopsy is not None else step
+        if step.kind in (StepKind.LOOK, StepKind.SCAN):
+            return own if inside else step
+        if step.kind in (StepKind.TILT, StepKind.INSERT, StepKind.FEEL):
+            return step
+        # The notch lies ahead of the tip: its middle goes to the target, not the tip.
+        begin, end = state.part.biopsy.throw(0).notch_span_mm
+        left = snapshot.offset.remaining - 0.5 * (begin + end) * MILLIMETRE
+        if abs(left) <= max(self._along, NOTCH_WITHIN):
+            return own
+        return NextStep(StepKind.DEEPER if left > 0.0 else StepKind.BACK, distance=abs(left))
 
     def _to_touch(self, snapshot: Snapshot, touch: TouchState) -> NextStep:
         """Lead the tip of a tool to the present target: across the path to it, and along."""

@@ -279,7 +279,9 @@ class Trainer:
                 words, data = begin_words(self._touching.state)
                 self._running.say(TASK, words, now, data)
             if exercise_part := self._exercise.procedure:
-                self._procedure = ProcedureState.at_begin(exercise_part, self._ablation)
+                self._procedure = ProcedureState.at_begin(
+                    exercise_part, self._placed.plan, self._tissues, self._ablation
+                )
                 self._scripted = ScriptedSteps(exercise_part, self._ablation)
                 self._take_aim()
                 data = begin_data(self._procedure)

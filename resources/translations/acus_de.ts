@@ -2840,6 +2840,18 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">tolerances: {metric} gehört zu einem Pfad, den die Studierenden wählen: Nehmen Sie plan {{own: true}}, oder lassen Sie es weg</translation>
         </message>
         <message>
+            <source>tolerances: {metric} is of a step that the exercise does not ask for: add {part} to procedure, or leave it out</source>
+            <translation>tolerances: {metric} gehört zu einem Schritt, den die Übung nicht verlangt: ergänzen Sie {part} unter procedure, oder lassen Sie es weg</translation>
+        </message>
+        <message>
+            <source>procedure: what a step meets is looked up in the patient: use tissue: field</source>
+            <translation>procedure: was ein Schritt trifft, wird im Patienten nachgesehen: verwenden Sie tissue: field</translation>
+        </message>
+        <message>
+            <source>procedure: a tool that touches targets takes no steps</source>
+            <translation>procedure: ein Werkzeug, das Ziele berührt, kennt keine Schritte</translation>
+        </message>
+        <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
             <translation type="unfinished">plan {{own: true}} bei einem CT-Ordner braucht target_mm: [x, y, z]</translation>
         </message>
@@ -5624,6 +5636,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">kein Gewebefeld sagte, was die Nadel traf</translation>
         </message>
         <message>
+            <source>the exercise asks for no steps of a procedure</source>
+            <translation>die Übung verlangt keine Schritte eines Eingriffs</translation>
+        </message>
+        <message>
             <source>nothing was to be touched</source>
             <translation type="unfinished">es war nichts zu berühren</translation>
         </message>
@@ -6646,6 +6662,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>a control scan is not possible while {attempt_state}: begin an attempt first</source>
             <translation type="unfinished">im Zustand {attempt_state} ist kein Kontrollscan möglich: Beginnen Sie zuerst einen Versuch</translation>
+        </message>
+        <message>
+            <source>no step of a procedure is possible now: begin an attempt at an exercise that asks for it</source>
+            <translation>jetzt ist kein Schritt eines Eingriffs möglich: beginnen Sie einen Versuch einer Übung, die ihn verlangt</translation>
         </message>
         <message>
             <source>no attempt has begun</source>
@@ -11825,6 +11845,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">nach rechts</translation>
         </message>
         <message>
+            <source>{n} of {of} samples suffice for a diagnosis; the best holds {mm:.1f} mm of lesion.</source>
+            <translation>{n} von {of} Proben genügen für eine Diagnose; die beste enthält {mm:.1f} mm Läsion.</translation>
+        </message>
+        <message>
             <source>to the patient's left</source>
             <translation type="unfinished">zur linken Patientenseite hin</translation>
         </message>
@@ -14009,6 +14033,30 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ziel {n} von {of}: {way}</translation>
         </message>
         <message>
+            <source>Draw the needle out, or give more (J)</source>
+            <translation>Ziehen Sie die Nadel heraus, oder geben Sie mehr (J)</translation>
+        </message>
+        <message>
+            <source>Another sample: stylet out (J). Enter ends the attempt</source>
+            <translation>Noch eine Probe: Mandrin heraus (J). Enter beendet den Versuch</translation>
+        </message>
+        <message>
+            <source>Push to just before pleura or capsule, then give local anaesthetic (J)</source>
+            <translation>Bis kurz vor Pleura oder Kapsel vorschieben, dann Lokalanästhetikum geben (J)</translation>
+        </message>
+        <message>
+            <source>Stop with the tip at the lesion's near edge, then stylet out (J)</source>
+            <translation>Mit der Spitze am nahen Rand der Läsion anhalten, dann Mandrin heraus (J)</translation>
+        </message>
+        <message>
+            <source>The hub is open: gun in, or stylet in (J)</source>
+            <translation>Der Ansatz ist offen: Gerät hinein, oder Mandrin hinein (J)</translation>
+        </message>
+        <message>
+            <source>Hold still and fire (Ctrl+J)</source>
+            <translation>Stillhalten und auslösen (Ctrl+J)</translation>
+        </message>
+        <message>
             <source>Held, {s:.0f} s left: </source>
             <translation type="unfinished">Atem angehalten, noch {s:.0f} s: </translation>
         </message>
@@ -15073,6 +15121,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{title} gespeichert: {path}</translation>
         </message>
         <message>
+            <source>{day!r} is no day; give one such as 2026-11-30</source>
+            <translation>{day!r} ist kein Tag; geben Sie einen wie 2026-11-30 an</translation>
+        </message>
+        <message>
+            <source>a course {id} is there already: give another --name, or change it in the window</source>
+            <translation>einen Kurs {id} gibt es schon: geben Sie einen anderen --name an, oder ändern Sie ihn im Fenster</translation>
+        </message>
+        <message>
+            <source>{id:32} {units} units  {title}</source>
+            <translation>{id:32} {units} Einheiten  {title}</translation>
+        </message>
+        <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
             <translation type="unfinished">Schreiben Sie ihn auf und schließen Sie ihn weg: Damit lässt sich ein neues Passwort setzen und der Schlüssel der Station in einer Sicherung öffnen. Er wird nirgends gespeichert.</translation>
         </message>
@@ -15586,6 +15646,30 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>File name</source>
             <translation type="unfinished">Dateiname</translation>
+        </message>
+        <message>
+            <source>Begin with</source>
+            <translation>Beginnen mit</translation>
+        </message>
+        <message>
+            <source>nothing: an empty course</source>
+            <translation>nichts: ein leerer Kurs</translation>
+        </message>
+        <message>
+            <source>First day of the course; its units are counted from it</source>
+            <translation>Erster Tag des Kurses; seine Einheiten werden von ihm an gezählt</translation>
+        </message>
+        <message>
+            <source>First day</source>
+            <translation>Erster Tag</translation>
+        </message>
+        <message>
+            <source>Fill in</source>
+            <translation>Eintragen</translation>
+        </message>
+        <message>
+            <source>Put the plan's exercises and days into the form, in place of what is there</source>
+            <translation>Übungen und Tage des Plans in das Formular eintragen, anstelle dessen, was dort steht</translation>
         </message>
         <message>
             <source>any</source>
@@ -17302,6 +17386,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">rückgängig, wiederholen</translation>
         </message>
         <message>
+            <source>procedure: next step; fire the biopsy gun</source>
+            <translation>Eingriff: nächster Schritt; Biopsiegerät auslösen</translation>
+        </message>
+        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">Plan speichern, speichern als</translation>
         </message>
@@ -18554,6 +18642,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alle</translation>
         </message>
         <message>
+            <source>Anaesthetic to membrane</source>
+            <translation>Anästhetikum bis zur Membran</translation>
+        </message>
+        <message>
             <source>Angle error at the skin</source>
             <translation type="unfinished">Winkelfehler an der Haut</translation>
         </message>
@@ -18654,6 +18746,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Tiefenfehler</translation>
         </message>
         <message>
+            <source>Diagnostic samples</source>
+            <translation>Diagnostische Proben</translation>
+        </message>
+        <message>
             <source>Dimpling and puncture of skin, fascia and capsule</source>
             <translation type="unfinished">Eindellung und Durchstich von Haut, Faszie und Kapsel</translation>
         </message>
@@ -18714,6 +18810,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Reibung des Gewebes am eingeführten Schaft</translation>
         </message>
         <message>
+            <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, the breath, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, and an assessment by control scans alone.</source>
+            <translation>Vom ersten Einstich bis zur ganzen Biopsie eines Lungenherds: Hand und Gewebe, der Atem, das Wählen eines Wegs, ein doppelt schräger Weg zwischen zwei Rippen, die ganze Biopsie und eine Prüfung allein mit Kontrollscans.</translation>
+        </message>
+        <message>
             <source>Fréchet distance from the path</source>
             <translation type="unfinished">Fréchet-Abstand vom Pfad</translation>
         </message>
@@ -18740,6 +18840,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Holding time</source>
             <translation type="unfinished">Haltezeit</translation>
+        </message>
+        <message>
+            <source>Hub open to air</source>
+            <translation>Ansatz offen zur Luft</translation>
         </message>
         <message>
             <source>Impedance at the tool point: virtual mass, spring and damper</source>
@@ -18774,12 +18878,24 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Kleinste Quadrate über das ganze Bild des Bands</translation>
         </message>
         <message>
+            <source>Lesion in the best sample</source>
+            <translation>Läsion in der besten Probe</translation>
+        </message>
+        <message>
             <source>Letting go of the needle: force to be had against run-away</source>
             <translation type="unfinished">Loslassen der Nadel: nutzbare Kraft gegenüber dem Davonlaufen</translation>
         </message>
         <message>
             <source>Light before the cameras</source>
             <translation type="unfinished">Licht vor den Kameras</translation>
+        </message>
+        <message>
+            <source>Lung biopsy in six units</source>
+            <translation>Lungenbiopsie in sechs Einheiten</translation>
+        </message>
+        <message>
+            <source>Lung biopsy, from the skin to the sample</source>
+            <translation>Lungenbiopsie, von der Haut bis zur Probe</translation>
         </message>
         <message>
             <source>Lung, oblique twice between ribs</source>
@@ -18796,6 +18912,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Mean force, estimated</source>
             <translation type="unfinished">Mittlere Kraft, geschätzt</translation>
+        </message>
+        <message>
+            <source>Met by a throw</source>
+            <translation>Vom Schuss getroffen</translation>
         </message>
         <message>
             <source>Metrics against what is published of them</source>
@@ -18850,8 +18970,16 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Wegverhältnis</translation>
         </message>
         <message>
+            <source>Pause before the membrane</source>
+            <translation>Pause vor der Membran</translation>
+        </message>
+        <message>
             <source>Peak force, estimated</source>
             <translation type="unfinished">Spitzenkraft, geschätzt</translation>
+        </message>
+        <message>
+            <source>Pierced by the anaesthetic</source>
+            <translation>Vom Anästhetikum durchstochen</translation>
         </message>
         <message>
             <source>Planned path</source>
@@ -18932,6 +19060,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Surfaces of the 3D view: resolution of the grid against time</source>
             <translation type="unfinished">Oberflächen der 3D-Ansicht: Auflösung des Gitters gegenüber Zeit</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
+            <translation>Nehmen Sie zwei Proben des Rundherds in der rechten Lunge. Geben Sie zuerst Lokalanästhetikum bis kurz vor die Pleura (J), ziehen Sie diese Nadel heraus und nehmen Sie die Außennadel (J). Halten Sie vor der Pleura an, durchqueren Sie sie in einem Zug, während der Herd ruht, und halten Sie mit der Spitze an seinem nahen Rand. Dann Mandrin heraus, Gerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein; drehen Sie die Kerbe und nehmen Sie eine weitere. Halten Sie den Ansatz geschlossen: wo er offen ist, kommt Luft hinein.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -20091,6 +20223,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Plan and control</source>
             <translation type="unfinished">Planen und kontrollieren</translation>
+        </message>
+        <message>
+            <source>Whole procedures</source>
+            <translation>Ganze Eingriffe</translation>
         </message>
         <message>
             <source>Research machines</source>
@@ -22503,6 +22639,274 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
             <translation type="unfinished">dem Token von {name} wird nicht geglaubt: {reason}; niemand wurde angemeldet: nochmals versuchen, und bleibt es so, den Betreiber fragen</translation>
+        </message>
+        <message>
+            <source>diagnostic_mm {diagnostic_mm:g} is more than the longest notch holds, {longest:g} mm: no sample could suffice</source>
+            <translation>diagnostic_mm {diagnostic_mm:g} ist mehr, als die längste Kerbe fasst, {longest:g} mm: keine Probe könnte genügen</translation>
+        </message>
+        <message>
+            <source>procedure names no step; there are {names}</source>
+            <translation>procedure nennt keinen Schritt; es gibt {names}</translation>
+        </message>
+        <message>
+            <source>a throw of {throw_mm:g} mm with a notch of {notch_mm:g} mm and a tip of {tip_mm:g} mm beyond it: all must be above 0</source>
+            <translation>ein Schuss von {throw_mm:g} mm mit einer Kerbe von {notch_mm:g} mm und einer Spitze von {tip_mm:g} mm dahinter: alle müssen über 0 liegen</translation>
+        </message>
+        <message>
+            <source>a notch of {notch_mm:g} mm and {tip_mm:g} mm beyond it are longer than the throw of {throw_mm:g} mm: part of the notch would stay in the outer needle</source>
+            <translation>eine Kerbe von {notch_mm:g} mm und {tip_mm:g} mm dahinter sind länger als der Schuss von {throw_mm:g} mm: ein Teil der Kerbe bliebe in der Außennadel</translation>
+        </message>
+        <message>
+            <source>the throw leaves the organ {ahead:.1f} mm ahead, into {tissue}</source>
+            <translation>der Schuss verlässt das Organ nach {ahead:.1f} mm, in {tissue}</translation>
+        </message>
+        <message>
+            <source>the throw meets {tissue} {ahead:.1f} mm ahead, for {length:.1f} mm</source>
+            <translation>der Schuss trifft {tissue} nach {ahead:.1f} mm, auf {length:.1f} mm</translation>
+        </message>
+        <message>
+            <source>the target lies in {tissue}: nobody marked a lesion there, so that no sample can be judged; mark it as a structure of kind target</source>
+            <translation>das Ziel liegt in {tissue}: dort hat niemand eine Läsion markiert, so dass keine Probe beurteilt werden kann; markieren Sie sie als Struktur der Art Ziel</translation>
+        </message>
+        <message>
+            <source>the needle has no direction</source>
+            <translation>die Nadel hat keine Richtung</translation>
+        </message>
+        <message>
+            <source>no local anaesthetic was given</source>
+            <translation>es wurde kein Lokalanästhetikum gegeben</translation>
+        </message>
+        <message>
+            <source>no pleura or capsule is known on the needle's way</source>
+            <translation>auf dem Weg der Nadel ist weder Pleura noch Kapsel bekannt</translation>
+        </message>
+        <message>
+            <source>no sample was taken</source>
+            <translation>es wurde keine Probe genommen</translation>
+        </message>
+        <message>
+            <source>neither pleura nor capsule was crossed</source>
+            <translation>weder Pleura noch Kapsel wurde durchquert</translation>
+        </message>
+        <message>
+            <source>a step of the procedure at {time} s: a number is not finite</source>
+            <translation>ein Schritt des Eingriffs bei {time} s: eine Zahl ist nicht endlich</translation>
+        </message>
+        <message>
+            <source>closes on day {closes}, before it opens on day {opens}</source>
+            <translation>schließt am Tag {closes}, bevor sie am Tag {opens} öffnet</translation>
+        </message>
+        <message>
+            <source>{name!r} is no plan of a course; there: {known}</source>
+            <translation>{name!r} ist kein Kursplan; es gibt: {known}</translation>
+        </message>
+        <message>
+            <source>local anaesthetic given</source>
+            <translation>Lokalanästhetikum gegeben</translation>
+        </message>
+        <message>
+            <source>the outer needle is taken</source>
+            <translation>die Außennadel ist zur Hand</translation>
+        </message>
+        <message>
+            <source>stylet out: the hub is open</source>
+            <translation>Mandrin heraus: der Ansatz ist offen</translation>
+        </message>
+        <message>
+            <source>stylet in</source>
+            <translation>Mandrin hinein</translation>
+        </message>
+        <message>
+            <source>biopsy gun in</source>
+            <translation>Biopsiegerät hinein</translation>
+        </message>
+        <message>
+            <source>biopsy gun fired</source>
+            <translation>Biopsiegerät ausgelöst</translation>
+        </message>
+        <message>
+            <source>biopsy gun out: the hub is open</source>
+            <translation>Biopsiegerät heraus: der Ansatz ist offen</translation>
+        </message>
+        <message>
+            <source>needle for local anaesthetic</source>
+            <translation>Nadel für das Lokalanästhetikum</translation>
+        </message>
+        <message>
+            <source>outer needle with its stylet</source>
+            <translation>Außennadel mit ihrem Mandrin</translation>
+        </message>
+        <message>
+            <source>outer needle, open to air</source>
+            <translation>Außennadel, offen zur Luft</translation>
+        </message>
+        <message>
+            <source>outer needle with the biopsy gun, cocked</source>
+            <translation>Außennadel mit gespanntem Biopsiegerät</translation>
+        </message>
+        <message>
+            <source>outer needle with the biopsy gun, fired</source>
+            <translation>Außennadel mit ausgelöstem Biopsiegerät</translation>
+        </message>
+        <message>
+            <source>this exercise takes no samples</source>
+            <translation>in dieser Übung werden keine Proben genommen</translation>
+        </message>
+        <message>
+            <source>not possible now: held is the {tool}</source>
+            <translation>jetzt nicht möglich: in der Hand ist: {tool}</translation>
+        </message>
+        <message>
+            <source>the syringe is empty after {count} times</source>
+            <translation>die Spritze ist nach {count} Gaben leer</translation>
+        </message>
+        <message>
+            <source>{count} samples were taken: the exercise allows no more</source>
+            <translation>{count} Proben wurden genommen: mehr erlaubt die Übung nicht</translation>
+        </message>
+        <message>
+            <source>not done: the needle's depth is not measured now; let both cameras see the marker and do it again</source>
+            <translation>nicht ausgeführt: die Tiefe der Nadel wird jetzt nicht gemessen; lassen Sie beide Kameras den Marker sehen und wiederholen Sie es</translation>
+        </message>
+        <message>
+            <source>the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first</source>
+            <translation>die Nadel für das Lokalanästhetikum ist {depth:.0f} mm im Körper: ziehen Sie sie zuerst heraus</translation>
+        </message>
+        <message>
+            <source>the tip is outside the skin: insert it first</source>
+            <translation>die Spitze ist außerhalb der Haut: führen Sie sie zuerst ein</translation>
+        </message>
+        <message>
+            <source>nothing tells which tissue lies where: use tissue: field in the exercise</source>
+            <translation>nichts sagt, welches Gewebe wo liegt: verwenden Sie tissue: field in der Übung</translation>
+        </message>
+        <message>
+            <source>setting {setting} of the gun: there are 0 to {most}</source>
+            <translation>Einstellung {setting} des Geräts: es gibt 0 bis {most}</translation>
+        </message>
+        <message>
+            <source>No sample was taken.</source>
+            <translation>Es wurde keine Probe genommen.</translation>
+        </message>
+        <message>
+            <source>The needle for local anaesthetic: {met}, at {clock}.</source>
+            <translation>Die Nadel für das Lokalanästhetikum: {met}, bei {clock}.</translation>
+        </message>
+        <message>
+            <source>The hub was open to air for {seconds:.1f} s with the tip in the body.</source>
+            <translation>Der Ansatz war {seconds:.1f} s offen zur Luft, mit der Spitze im Körper.</translation>
+        </message>
+        <message>
+            <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion; the core passed {aside:.1f} mm beside its middle.</source>
+            <translation>Probe {ordinal} bei {clock}: {mm:.1f} mm Läsion; der Zylinder lag {aside:.1f} mm neben ihrer Mitte.</translation>
+        </message>
+        <message>
+            <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion.</source>
+            <translation>Probe {ordinal} bei {clock}: {mm:.1f} mm Läsion.</translation>
+        </message>
+        <message>
+            <source>{hit}.</source>
+            <translation>{hit}.</translation>
+        </message>
+        <message>
+            <source>Local anaesthetic at {clock}, {mm:.1f} mm short of pleura or capsule.</source>
+            <translation>Lokalanästhetikum bei {clock}, {mm:.1f} mm vor Pleura oder Kapsel.</translation>
+        </message>
+        <message>
+            <source>Local anaesthetic at {clock}, {mm:.1f} mm beyond pleura or capsule.</source>
+            <translation>Lokalanästhetikum bei {clock}, {mm:.1f} mm hinter Pleura oder Kapsel.</translation>
+        </message>
+        <message>
+            <source>a script cannot stop at {stops}</source>
+            <translation>ein Skript kann nicht bei {stops} anhalten</translation>
+        </message>
+        <message>
+            <source>{throw} mm</source>
+            <translation>{throw} mm</translation>
+        </message>
+        <message>
+            <source>The notch holds {notch} mm and ends {tip} mm before the needle does</source>
+            <translation>Die Kerbe fasst {notch} mm und endet {tip} mm vor der Nadel</translation>
+        </message>
+        <message>
+            <source>Held: {tool}</source>
+            <translation>In der Hand: {tool}</translation>
+        </message>
+        <message>
+            <source>Next step (J)</source>
+            <translation>Nächster Schritt (J)</translation>
+        </message>
+        <message>
+            <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
+            <translation>Nach dem Plan: in {depth:.0f} mm Tiefe anhalten für {mm:.0f} mm Läsion</translation>
+        </message>
+        <message>
+            <source>Fire the gun (Ctrl+J)</source>
+            <translation>Gerät auslösen (Ctrl+J)</translation>
+        </message>
+        <message>
+            <source>The gun's needle runs ahead by its throw and brings back a core</source>
+            <translation>Die Nadel des Geräts schießt um ihren Hub voraus und bringt einen Zylinder zurück</translation>
+        </message>
+        <message>
+            <source>What follows in the usual order</source>
+            <translation>Was in der üblichen Reihenfolge kommt</translation>
+        </message>
+        <message>
+            <source>How far the gun's needle runs ahead of the outer needle's tip</source>
+            <translation>Wie weit die Nadel des Geräts vor die Spitze der Außennadel schießt</translation>
+        </message>
+        <message>
+            <source>To which side the notch is open, as on a clock seen from the hub: 12 is the front</source>
+            <translation>Zu welcher Seite die Kerbe offen ist, wie auf einer Uhr vom Ansatz gesehen: 12 ist vorn</translation>
+        </message>
+        <message>
+            <source>Throw</source>
+            <translation>Hub</translation>
+        </message>
+        <message>
+            <source>Notch</source>
+            <translation>Kerbe</translation>
+        </message>
+        <message>
+            <source>{hour} o'clock</source>
+            <translation>{hour} Uhr</translation>
+        </message>
+        <message>
+            <source>Give local anaesthetic (J)</source>
+            <translation>Lokalanästhetikum geben (J)</translation>
+        </message>
+        <message>
+            <source>Take the outer needle (J)</source>
+            <translation>Außennadel nehmen (J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J)</source>
+            <translation>Mandrin heraus (J)</translation>
+        </message>
+        <message>
+            <source>Gun in (J)</source>
+            <translation>Gerät hinein (J)</translation>
+        </message>
+        <message>
+            <source>Gun out (J)</source>
+            <translation>Gerät heraus (J)</translation>
+        </message>
+        <message>
+            <source>Stylet in (J)</source>
+            <translation>Mandrin hinein (J)</translation>
+        </message>
+        <message>
+            <source>Local anaesthetic given: {n}×</source>
+            <translation>Lokalanästhetikum gegeben: {n}×</translation>
+        </message>
+        <message>
+            <source>✔ Sample {n}: {mm:.1f} mm of lesion</source>
+            <translation>✔ Probe {n}: {mm:.1f} mm Läsion</translation>
+        </message>
+        <message>
+            <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
+            <translation>✖ Probe {n}: {mm:.1f} mm Läsion, nötig sind {least:g} mm</translation>
         </message>
     </context>
 </TS>

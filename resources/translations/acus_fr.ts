@@ -2840,6 +2840,18 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">tolerances : {metric} porte sur une trajectoire que l’étudiant choisit : utilisez plan {{own: true}}, ou omettez-la</translation>
         </message>
         <message>
+            <source>tolerances: {metric} is of a step that the exercise does not ask for: add {part} to procedure, or leave it out</source>
+            <translation>tolerances : {metric} relève d'une étape que l'exercice ne demande pas : ajoutez {part} à procedure, ou retirez-le</translation>
+        </message>
+        <message>
+            <source>procedure: what a step meets is looked up in the patient: use tissue: field</source>
+            <translation>procedure : ce qu'une étape rencontre se lit dans le patient : utilisez tissue: field</translation>
+        </message>
+        <message>
+            <source>procedure: a tool that touches targets takes no steps</source>
+            <translation>procedure : un outil qui touche des cibles ne connaît pas d'étapes</translation>
+        </message>
+        <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
             <translation type="unfinished">plan {{own: true}} d’un dossier CT demande target_mm: [x, y, z]</translation>
         </message>
@@ -5624,6 +5636,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">aucun champ de tissus n’a dit ce que l’aiguille a rencontré</translation>
         </message>
         <message>
+            <source>the exercise asks for no steps of a procedure</source>
+            <translation>l'exercice ne demande aucune étape d'intervention</translation>
+        </message>
+        <message>
             <source>nothing was to be touched</source>
             <translation type="unfinished">il n’y avait rien à toucher</translation>
         </message>
@@ -6646,6 +6662,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         <message>
             <source>a control scan is not possible while {attempt_state}: begin an attempt first</source>
             <translation type="unfinished">un scan de contrôle n’est pas possible dans l’état {attempt_state} : commencez d’abord un essai</translation>
+        </message>
+        <message>
+            <source>no step of a procedure is possible now: begin an attempt at an exercise that asks for it</source>
+            <translation>aucune étape d'intervention n'est possible maintenant : commencez un essai d'un exercice qui en demande</translation>
         </message>
         <message>
             <source>no attempt has begun</source>
@@ -11825,6 +11845,10 @@ Lettres : directions du patient
             <translation type="unfinished">vers la droite</translation>
         </message>
         <message>
+            <source>{n} of {of} samples suffice for a diagnosis; the best holds {mm:.1f} mm of lesion.</source>
+            <translation>{n} prélèvements sur {of} suffisent au diagnostic ; le meilleur contient {mm:.1f} mm de lésion.</translation>
+        </message>
+        <message>
             <source>to the patient's left</source>
             <translation type="unfinished">vers la gauche du patient</translation>
         </message>
@@ -14009,6 +14033,30 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Cible {n} sur {of} : {way}</translation>
         </message>
         <message>
+            <source>Draw the needle out, or give more (J)</source>
+            <translation>Retirez l'aiguille, ou injectez encore (J)</translation>
+        </message>
+        <message>
+            <source>Another sample: stylet out (J). Enter ends the attempt</source>
+            <translation>Un autre prélèvement : stylet retiré (J). Entrée termine l'essai</translation>
+        </message>
+        <message>
+            <source>Push to just before pleura or capsule, then give local anaesthetic (J)</source>
+            <translation>Avancez jusque devant la plèvre ou la capsule, puis injectez l'anesthésique local (J)</translation>
+        </message>
+        <message>
+            <source>Stop with the tip at the lesion's near edge, then stylet out (J)</source>
+            <translation>Arrêtez la pointe au bord proche de la lésion, puis retirez le stylet (J)</translation>
+        </message>
+        <message>
+            <source>The hub is open: gun in, or stylet in (J)</source>
+            <translation>L'embase est ouverte : pistolet en place, ou stylet en place (J)</translation>
+        </message>
+        <message>
+            <source>Hold still and fire (Ctrl+J)</source>
+            <translation>Ne bougez plus et déclenchez (Ctrl+J)</translation>
+        </message>
+        <message>
             <source>Held, {s:.0f} s left: </source>
             <translation type="unfinished">Apnée, encore {s:.0f} s : </translation>
         </message>
@@ -15073,6 +15121,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{title} enregistré : {path}</translation>
         </message>
         <message>
+            <source>{day!r} is no day; give one such as 2026-11-30</source>
+            <translation>{day!r} n'est pas un jour ; donnez-en un comme 2026-11-30</translation>
+        </message>
+        <message>
+            <source>a course {id} is there already: give another --name, or change it in the window</source>
+            <translation>un cours {id} existe déjà : donnez un autre --name, ou modifiez-le dans la fenêtre</translation>
+        </message>
+        <message>
+            <source>{id:32} {units} units  {title}</source>
+            <translation>{id:32} {units} unités  {title}</translation>
+        </message>
+        <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
             <translation type="unfinished">Notez-la et mettez-la sous clé : elle permet de définir un nouveau mot de passe et ouvre la clé du poste dans une sauvegarde. Elle n’est enregistrée nulle part.</translation>
         </message>
@@ -15586,6 +15646,30 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>File name</source>
             <translation type="unfinished">Nom du fichier</translation>
+        </message>
+        <message>
+            <source>Begin with</source>
+            <translation>Commencer par</translation>
+        </message>
+        <message>
+            <source>nothing: an empty course</source>
+            <translation>rien : un cours vide</translation>
+        </message>
+        <message>
+            <source>First day of the course; its units are counted from it</source>
+            <translation>Premier jour du cours ; ses unités se comptent à partir de lui</translation>
+        </message>
+        <message>
+            <source>First day</source>
+            <translation>Premier jour</translation>
+        </message>
+        <message>
+            <source>Fill in</source>
+            <translation>Remplir</translation>
+        </message>
+        <message>
+            <source>Put the plan's exercises and days into the form, in place of what is there</source>
+            <translation>Mettre les exercices et les jours du plan dans le formulaire, à la place de ce qui s'y trouve</translation>
         </message>
         <message>
             <source>any</source>
@@ -17302,6 +17386,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">annuler, rétablir</translation>
         </message>
         <message>
+            <source>procedure: next step; fire the biopsy gun</source>
+            <translation>intervention : étape suivante ; déclencher le pistolet à biopsie</translation>
+        </message>
+        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">enregistrer le plan, enregistrer sous</translation>
         </message>
@@ -18554,6 +18642,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tous</translation>
         </message>
         <message>
+            <source>Anaesthetic to membrane</source>
+            <translation>Anesthésique jusqu'à la membrane</translation>
+        </message>
+        <message>
             <source>Angle error at the skin</source>
             <translation type="unfinished">Erreur d’angle à la peau</translation>
         </message>
@@ -18654,6 +18746,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Erreur de profondeur</translation>
         </message>
         <message>
+            <source>Diagnostic samples</source>
+            <translation>Prélèvements diagnostiques</translation>
+        </message>
+        <message>
             <source>Dimpling and puncture of skin, fascia and capsule</source>
             <translation type="unfinished">Enfoncement et perforation de la peau, du fascia et de la capsule</translation>
         </message>
@@ -18714,6 +18810,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Frottement du tissu le long de la tige introduite</translation>
         </message>
         <message>
+            <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, the breath, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, and an assessment by control scans alone.</source>
+            <translation>De la première insertion à la biopsie entière d'un nodule pulmonaire : main et tissu, respiration, choix d'un trajet, trajet doublement oblique entre deux côtes, biopsie entière, et une évaluation par scans de contrôle seuls.</translation>
+        </message>
+        <message>
             <source>Fréchet distance from the path</source>
             <translation type="unfinished">Distance de Fréchet à la trajectoire</translation>
         </message>
@@ -18740,6 +18840,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Holding time</source>
             <translation type="unfinished">Temps de maintien</translation>
+        </message>
+        <message>
+            <source>Hub open to air</source>
+            <translation>Embase ouverte à l'air</translation>
         </message>
         <message>
             <source>Impedance at the tool point: virtual mass, spring and damper</source>
@@ -18774,12 +18878,24 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Moindres carrés sur toute l’image de la bande</translation>
         </message>
         <message>
+            <source>Lesion in the best sample</source>
+            <translation>Lésion dans le meilleur prélèvement</translation>
+        </message>
+        <message>
             <source>Letting go of the needle: force to be had against run-away</source>
             <translation type="unfinished">Lâcher l’aiguille : force disponible face à l’emballement</translation>
         </message>
         <message>
             <source>Light before the cameras</source>
             <translation type="unfinished">Lumière devant les caméras</translation>
+        </message>
+        <message>
+            <source>Lung biopsy in six units</source>
+            <translation>Biopsie pulmonaire en six unités</translation>
+        </message>
+        <message>
+            <source>Lung biopsy, from the skin to the sample</source>
+            <translation>Biopsie pulmonaire, de la peau au prélèvement</translation>
         </message>
         <message>
             <source>Lung, oblique twice between ribs</source>
@@ -18796,6 +18912,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Mean force, estimated</source>
             <translation type="unfinished">Force moyenne, estimée</translation>
+        </message>
+        <message>
+            <source>Met by a throw</source>
+            <translation>Rencontré par le tir</translation>
         </message>
         <message>
             <source>Metrics against what is published of them</source>
@@ -18850,8 +18970,16 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rapport du trajet</translation>
         </message>
         <message>
+            <source>Pause before the membrane</source>
+            <translation>Pause devant la membrane</translation>
+        </message>
+        <message>
             <source>Peak force, estimated</source>
             <translation type="unfinished">Force maximale, estimée</translation>
+        </message>
+        <message>
+            <source>Pierced by the anaesthetic</source>
+            <translation>Percé par l'anesthésique</translation>
         </message>
         <message>
             <source>Planned path</source>
@@ -18932,6 +19060,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Surfaces of the 3D view: resolution of the grid against time</source>
             <translation type="unfinished">Surfaces de la vue 3D : résolution de la grille face au temps</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
+            <translation>Prenez deux prélèvements du nodule du poumon droit. Injectez d'abord l'anesthésique local juste devant la plèvre (J), retirez cette aiguille et prenez l'aiguille externe (J). Arrêtez-vous devant la plèvre, traversez-la d'un seul geste pendant que le nodule est au repos, et arrêtez la pointe à son bord proche. Puis stylet retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, stylet en place ; tournez l'encoche et prenez-en un autre. Gardez l'embase fermée : ouverte, elle laisse entrer l'air.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -20091,6 +20223,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Plan and control</source>
             <translation type="unfinished">Planifier et contrôler</translation>
+        </message>
+        <message>
+            <source>Whole procedures</source>
+            <translation>Interventions entières</translation>
         </message>
         <message>
             <source>Research machines</source>
@@ -22503,6 +22639,274 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
             <translation type="unfinished">le jeton de {name} n'est pas cru : {reason} ; personne n'a été connecté : réessayer, et si cela dure demander à qui le gère</translation>
+        </message>
+        <message>
+            <source>diagnostic_mm {diagnostic_mm:g} is more than the longest notch holds, {longest:g} mm: no sample could suffice</source>
+            <translation>diagnostic_mm {diagnostic_mm:g} dépasse ce que contient la plus longue encoche, {longest:g} mm : aucun prélèvement ne pourrait suffire</translation>
+        </message>
+        <message>
+            <source>procedure names no step; there are {names}</source>
+            <translation>procedure ne nomme aucune étape ; il y a {names}</translation>
+        </message>
+        <message>
+            <source>a throw of {throw_mm:g} mm with a notch of {notch_mm:g} mm and a tip of {tip_mm:g} mm beyond it: all must be above 0</source>
+            <translation>un tir de {throw_mm:g} mm avec une encoche de {notch_mm:g} mm et une pointe de {tip_mm:g} mm au-delà : tous doivent dépasser 0</translation>
+        </message>
+        <message>
+            <source>a notch of {notch_mm:g} mm and {tip_mm:g} mm beyond it are longer than the throw of {throw_mm:g} mm: part of the notch would stay in the outer needle</source>
+            <translation>une encoche de {notch_mm:g} mm et {tip_mm:g} mm au-delà dépassent le tir de {throw_mm:g} mm : une partie de l'encoche resterait dans l'aiguille externe</translation>
+        </message>
+        <message>
+            <source>the throw leaves the organ {ahead:.1f} mm ahead, into {tissue}</source>
+            <translation>le tir quitte l'organe à {ahead:.1f} mm, vers {tissue}</translation>
+        </message>
+        <message>
+            <source>the throw meets {tissue} {ahead:.1f} mm ahead, for {length:.1f} mm</source>
+            <translation>le tir rencontre {tissue} à {ahead:.1f} mm, sur {length:.1f} mm</translation>
+        </message>
+        <message>
+            <source>the target lies in {tissue}: nobody marked a lesion there, so that no sample can be judged; mark it as a structure of kind target</source>
+            <translation>la cible est dans {tissue} : personne n'y a marqué de lésion, aucun prélèvement ne peut donc être jugé ; marquez-la comme structure de type cible</translation>
+        </message>
+        <message>
+            <source>the needle has no direction</source>
+            <translation>l'aiguille n'a pas de direction</translation>
+        </message>
+        <message>
+            <source>no local anaesthetic was given</source>
+            <translation>aucun anesthésique local n'a été injecté</translation>
+        </message>
+        <message>
+            <source>no pleura or capsule is known on the needle's way</source>
+            <translation>ni plèvre ni capsule ne sont connues sur le trajet de l'aiguille</translation>
+        </message>
+        <message>
+            <source>no sample was taken</source>
+            <translation>aucun prélèvement n'a été fait</translation>
+        </message>
+        <message>
+            <source>neither pleura nor capsule was crossed</source>
+            <translation>ni plèvre ni capsule n'ont été traversées</translation>
+        </message>
+        <message>
+            <source>a step of the procedure at {time} s: a number is not finite</source>
+            <translation>une étape de l'intervention à {time} s : un nombre n'est pas fini</translation>
+        </message>
+        <message>
+            <source>closes on day {closes}, before it opens on day {opens}</source>
+            <translation>ferme le jour {closes}, avant d'ouvrir le jour {opens}</translation>
+        </message>
+        <message>
+            <source>{name!r} is no plan of a course; there: {known}</source>
+            <translation>{name!r} n'est pas un plan de cours ; il y a : {known}</translation>
+        </message>
+        <message>
+            <source>local anaesthetic given</source>
+            <translation>anesthésique local injecté</translation>
+        </message>
+        <message>
+            <source>the outer needle is taken</source>
+            <translation>l'aiguille externe est prise</translation>
+        </message>
+        <message>
+            <source>stylet out: the hub is open</source>
+            <translation>stylet retiré : l'embase est ouverte</translation>
+        </message>
+        <message>
+            <source>stylet in</source>
+            <translation>stylet en place</translation>
+        </message>
+        <message>
+            <source>biopsy gun in</source>
+            <translation>pistolet à biopsie en place</translation>
+        </message>
+        <message>
+            <source>biopsy gun fired</source>
+            <translation>pistolet à biopsie déclenché</translation>
+        </message>
+        <message>
+            <source>biopsy gun out: the hub is open</source>
+            <translation>pistolet à biopsie retiré : l'embase est ouverte</translation>
+        </message>
+        <message>
+            <source>needle for local anaesthetic</source>
+            <translation>aiguille d'anesthésie locale</translation>
+        </message>
+        <message>
+            <source>outer needle with its stylet</source>
+            <translation>aiguille externe avec son stylet</translation>
+        </message>
+        <message>
+            <source>outer needle, open to air</source>
+            <translation>aiguille externe, ouverte à l'air</translation>
+        </message>
+        <message>
+            <source>outer needle with the biopsy gun, cocked</source>
+            <translation>aiguille externe avec le pistolet armé</translation>
+        </message>
+        <message>
+            <source>outer needle with the biopsy gun, fired</source>
+            <translation>aiguille externe avec le pistolet déclenché</translation>
+        </message>
+        <message>
+            <source>this exercise takes no samples</source>
+            <translation>cet exercice ne comporte pas de prélèvement</translation>
+        </message>
+        <message>
+            <source>not possible now: held is the {tool}</source>
+            <translation>impossible maintenant : en main : {tool}</translation>
+        </message>
+        <message>
+            <source>the syringe is empty after {count} times</source>
+            <translation>la seringue est vide après {count} injections</translation>
+        </message>
+        <message>
+            <source>{count} samples were taken: the exercise allows no more</source>
+            <translation>{count} prélèvements ont été faits : l'exercice n'en permet pas plus</translation>
+        </message>
+        <message>
+            <source>not done: the needle's depth is not measured now; let both cameras see the marker and do it again</source>
+            <translation>non fait : la profondeur de l'aiguille n'est pas mesurée ; montrez le marqueur aux deux caméras et recommencez</translation>
+        </message>
+        <message>
+            <source>the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first</source>
+            <translation>l'aiguille d'anesthésie locale est à {depth:.0f} mm dans le corps : retirez-la d'abord</translation>
+        </message>
+        <message>
+            <source>the tip is outside the skin: insert it first</source>
+            <translation>la pointe est hors de la peau : insérez-la d'abord</translation>
+        </message>
+        <message>
+            <source>nothing tells which tissue lies where: use tissue: field in the exercise</source>
+            <translation>rien ne dit quel tissu se trouve où : utilisez tissue: field dans l'exercice</translation>
+        </message>
+        <message>
+            <source>setting {setting} of the gun: there are 0 to {most}</source>
+            <translation>réglage {setting} du pistolet : il y a de 0 à {most}</translation>
+        </message>
+        <message>
+            <source>No sample was taken.</source>
+            <translation>Aucun prélèvement n'a été fait.</translation>
+        </message>
+        <message>
+            <source>The needle for local anaesthetic: {met}, at {clock}.</source>
+            <translation>L'aiguille d'anesthésie locale : {met}, à {clock}.</translation>
+        </message>
+        <message>
+            <source>The hub was open to air for {seconds:.1f} s with the tip in the body.</source>
+            <translation>L'embase est restée ouverte à l'air {seconds:.1f} s, la pointe dans le corps.</translation>
+        </message>
+        <message>
+            <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion; the core passed {aside:.1f} mm beside its middle.</source>
+            <translation>Prélèvement {ordinal} à {clock} : {mm:.1f} mm de lésion ; la carotte passait à {aside:.1f} mm de son milieu.</translation>
+        </message>
+        <message>
+            <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion.</source>
+            <translation>Prélèvement {ordinal} à {clock} : {mm:.1f} mm de lésion.</translation>
+        </message>
+        <message>
+            <source>{hit}.</source>
+            <translation>{hit}.</translation>
+        </message>
+        <message>
+            <source>Local anaesthetic at {clock}, {mm:.1f} mm short of pleura or capsule.</source>
+            <translation>Anesthésique local à {clock}, {mm:.1f} mm avant la plèvre ou la capsule.</translation>
+        </message>
+        <message>
+            <source>Local anaesthetic at {clock}, {mm:.1f} mm beyond pleura or capsule.</source>
+            <translation>Anesthésique local à {clock}, {mm:.1f} mm au-delà de la plèvre ou de la capsule.</translation>
+        </message>
+        <message>
+            <source>a script cannot stop at {stops}</source>
+            <translation>un script ne peut pas s'arrêter à {stops}</translation>
+        </message>
+        <message>
+            <source>{throw} mm</source>
+            <translation>{throw} mm</translation>
+        </message>
+        <message>
+            <source>The notch holds {notch} mm and ends {tip} mm before the needle does</source>
+            <translation>L'encoche contient {notch} mm et finit {tip} mm avant l'aiguille</translation>
+        </message>
+        <message>
+            <source>Held: {tool}</source>
+            <translation>En main : {tool}</translation>
+        </message>
+        <message>
+            <source>Next step (J)</source>
+            <translation>Étape suivante (J)</translation>
+        </message>
+        <message>
+            <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
+            <translation>Selon le plan : arrêt à {depth:.0f} mm pour {mm:.0f} mm de lésion</translation>
+        </message>
+        <message>
+            <source>Fire the gun (Ctrl+J)</source>
+            <translation>Déclencher (Ctrl+J)</translation>
+        </message>
+        <message>
+            <source>The gun's needle runs ahead by its throw and brings back a core</source>
+            <translation>L'aiguille du pistolet part en avant de sa course et rapporte une carotte</translation>
+        </message>
+        <message>
+            <source>What follows in the usual order</source>
+            <translation>Ce qui suit dans l'ordre habituel</translation>
+        </message>
+        <message>
+            <source>How far the gun's needle runs ahead of the outer needle's tip</source>
+            <translation>De combien l'aiguille du pistolet dépasse la pointe de l'aiguille externe</translation>
+        </message>
+        <message>
+            <source>To which side the notch is open, as on a clock seen from the hub: 12 is the front</source>
+            <translation>De quel côté l'encoche s'ouvre, comme sur une horloge vue de l'embase : 12 est l'avant</translation>
+        </message>
+        <message>
+            <source>Throw</source>
+            <translation>Course</translation>
+        </message>
+        <message>
+            <source>Notch</source>
+            <translation>Encoche</translation>
+        </message>
+        <message>
+            <source>{hour} o'clock</source>
+            <translation>{hour} h</translation>
+        </message>
+        <message>
+            <source>Give local anaesthetic (J)</source>
+            <translation>Anesthésier (J)</translation>
+        </message>
+        <message>
+            <source>Take the outer needle (J)</source>
+            <translation>Prendre l'aiguille externe (J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J)</source>
+            <translation>Retirer le stylet (J)</translation>
+        </message>
+        <message>
+            <source>Gun in (J)</source>
+            <translation>Pistolet en place (J)</translation>
+        </message>
+        <message>
+            <source>Gun out (J)</source>
+            <translation>Retirer le pistolet (J)</translation>
+        </message>
+        <message>
+            <source>Stylet in (J)</source>
+            <translation>Remettre le stylet (J)</translation>
+        </message>
+        <message>
+            <source>Local anaesthetic given: {n}×</source>
+            <translation>Anesthésique local injecté : {n}×</translation>
+        </message>
+        <message>
+            <source>✔ Sample {n}: {mm:.1f} mm of lesion</source>
+            <translation>✔ Prélèvement {n} : {mm:.1f} mm de lésion</translation>
+        </message>
+        <message>
+            <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
+            <translation>✖ Prélèvement {n} : {mm:.1f} mm de lésion, il en faut {least:g} mm</translation>
         </message>
     </context>
 </TS>

@@ -431,3 +431,17 @@ def test_a_data_folder_that_can_only_be_read_shows_people_and_board_to_the_instr
         assert ("Ada" in out) == (words != ("session", "list")), out
         assert "\n" not in said.strip()
         assert "wrong tries are not kept" in said
+
+
+def test_a_course_begins_by_a_plan_on_a_day(acus):
+    (plan,) = acus("course", "plans")["plans"]
+    assert len(plan["units"]) == 6
+    begun = acus("course", "begin", plan["id"], "--on", "2026-12-07", "--group", "A")
+    assert begun["problems"] == []
+    course = find_course(f"{plan['id']}-2026-12")
+    assert course.groups == ("A",)
+    assert all(item.version >= 1 for item in course.items)
+    assert "no day" in acus("course", "begin", plan["id"], "--on", "soon", code=2)
+    again = acus("course", "begin", plan["id"], "--on", "2026-12-08", code=2)
+    assert "is there already" in again
+    assert "no plan of a course" in acus("course", "begin", "heart", "--on", "2026-12-07", code=2)

@@ -20,7 +20,7 @@ SAYS_NO_FACTS = {("run",), ("demo",), ("device", "emulate")}
 NEEDS_MORE = {
     "calibrate export", "calibrate import", "calibrate mono", "calibrate redo", "calibrate reject",
     "calibrate show", "calibrate stereo", "calibrate undo", "calibrate use", "calibrate views",
-    "calibrate world", "cohort rescore", "cohort sweep",
+    "calibrate world", "cohort rescore", "cohort sweep", "course begin",
     "ct digest", "ct import", "ct list", "ct path", "ct point",
     "device calibrate", "device show", "exercise bands", "exercise mark", "exercise pack",
     "exercise trial", "exercise unpack",
@@ -100,6 +100,7 @@ EXAMPLES = {
     "camera latency": (),
     "camera list": (),
     "camera use": ("--left", "simulated", "--right", "simulated"),
+    "course plans": (),
     "check": ("--last",),
     "device list": (),
     "exercise list": (),

@@ -6,14 +6,15 @@ from datetime import UTC, datetime, timedelta
 from types import MappingProxyType
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QDate, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QFileDialog, QLineEdit, QPlainTextEdit
 
+from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
 from app.scoring.competence import CompetenceRule
 from app.scoring.conditions import Conditions
-from app.session.course import Course, CourseError, courses
+from app.session.course import Course, CourseError, courses, find_course
 from app.session.header import SessionHeader
 from app.session.people import People
 from app.session.recorder import Recorder
@@ -30,8 +31,9 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS, Known
+from app.views.people.course_form import CourseDialog
 from app.views.people.feature import PeopleFeature
-from app.views.people.pages import GROUP_PDF, STUDENT_PDF, CourseDialog, EntryDialog, since_words
+from app.views.people.pages import GROUP_PDF, STUDENT_PDF, EntryDialog, since_words
 
 
 @pytest.fixture
@@ -786,3 +788,25 @@ def test_another_pin_is_drawn_only_after_a_question(window, feature, settle):
 )
 def test_how_long_ago_an_attempt_was_is_told_in_the_unit_of_its_size(minutes, words):
     assert since_words(timedelta(minutes=minutes)) == words
+
+
+def test_a_new_course_begins_with_a_plan_that_ships(window, feature, settle):
+    feature.show()
+    feature.page.courses.new.click()
+    dialog = feature.dialog
+    dialog.plan.setCurrentIndex(1)
+    dialog.first.setDate(QDate(2026, 12, 7))
+    dialog._fill()
+    assert dialog.id.text() == "lung-biopsy-in-six-units-2026-12"
+    assert dialog.items.rowCount() == 6
+    assert dialog.items.cellWidget(5, 4).text() == "2027-01-11"
+    course = dialog.course()
+    assert course.ordered
+    assert course.items[5].purpose is Purpose.ASSESSMENT
+    assert course.items[5].attempts == 2
+    dialog.id.setText("mine")
+    dialog._fill()
+    assert dialog.id.text() == "mine", "what was typed stays"
+    assert dialog.items.rowCount() == 6, "in place of what was there"
+    dialog.save()
+    assert find_course("mine").items[4].exercise == "lung-biopsy"

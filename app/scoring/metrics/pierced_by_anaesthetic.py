@@ -2,8 +2,6 @@
 
 from typing import Any, Final
 
-from app.imaging.field.tissue_field import TissueKind
-from app.scoring.met import BY_TIP
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -16,9 +14,7 @@ DECLARATION: Final[dict[str, Any]] = {
 
 def compute(trajectory: Trajectory) -> float:
     """Return how often it came into lung, or into what holds the target."""
-    met = trajectory.steps().met_before
-    inside = [one for one in met if one.by == BY_TIP and one.counts]
-    return float(sum(one.kind == TissueKind.LUNG or one.holds_target for one in inside))
+    return float(len(trajectory.steps().pierced))
 
 
 def deviation(trajectory: Trajectory) -> float | None:

@@ -9,6 +9,7 @@ from app.core.units import MILLIMETRE
 from app.imaging.field.tissue_words import tissue_words
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.scoring.pass_line import pass_words
+from app.scoring.procedure import ProcedureMarks
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.rows import Row, shown_sd
@@ -318,6 +319,10 @@ def row_texts(row: Row, score: Score) -> RowTexts:
 
 def ending_words(review: Review) -> str:
     """Say where the needle ended, seen from the target; empty where nobody measured it."""
+    if review.steps is not None and (
+        review.steps.samples or "diagnostic_samples" in review.tolerances
+    ):
+        return _best_sample(review.steps)
     motion = review.motion
     away = motion.ending() if motion is not None else None
     if away is None:
@@ -512,3 +517,16 @@ def _limits(row: Row) -> str:
     )
     required = tr("* required to pass") if row.tolerance.required else ""
     return "; ".join(filter(None, (text, required, pass_words(row.name, passing))))
+
+
+def _best_sample(steps: ProcedureMarks) -> str:
+    """Say what the samples hold: where the outer needle ended matters less than they."""
+    if not steps.samples:
+        return tr("No sample was taken.")
+    best = max(sample.lesion_mm for sample in steps.samples)
+    return tr(
+        "{n} of {of} samples suffice for a diagnosis; the best holds {mm:.1f} mm of lesion.",
+        n=sum(sample.is_diagnostic for sample in steps.samples),
+        of=len(steps.samples),
+        mm=best,
+    )

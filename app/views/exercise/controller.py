@@ -167,9 +167,10 @@ class ExerciseDisplay:
         views.panel.bevel.show_roll(snapshot.roll, commands)
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
+        acts = commands and snapshot.state not in (State.WITHDRAWING, State.PAUSED)
         electrodes, other = of_electrodes(snapshot.procedure)
-        views.panel.procedure.show_procedure(other, commands, inside)
-        views.panel.ablation.show_ablation(electrodes, commands, inside)
+        views.panel.procedure.show_procedure(other, acts, inside)
+        views.panel.ablation.show_ablation(electrodes, acts, inside)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, snapshot.ready, hidden

@@ -372,8 +372,8 @@ class AttemptTools(QWidget):
     """What is pressed and answered in an attempt: beside the rest of the panel, or in the rail.
 
     Attributes:
-        buttons, withdrawal, enable, breath, bevel, touch, procedure, ablation, scan: from
-            the top.
+        procedure, ablation, buttons, withdrawal, enable, breath, bevel, touch, scan: what stands
+            there.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -393,13 +393,13 @@ class AttemptTools(QWidget):
         column.setSpacing(theme.SPACING - 2)
         for widget in (
             self.withdrawal,
+            self.procedure,
+            self.ablation,
             self.buttons,
             self.enable,
             self.breath,
             self.bevel,
             self.touch,
-            self.procedure,
-            self.ablation,
             self.scan,
         ):
             column.addWidget(widget)
@@ -408,6 +408,7 @@ class AttemptTools(QWidget):
         """Suit a rail, or a panel of the usual width."""
         self.buttons.set_narrow(narrow)
         self.breath.set_narrow(narrow)
+        self.procedure.set_narrow(narrow)
         self.scan.set_narrow(narrow)
         self.bevel.setWordWrap(narrow)
 

@@ -81,20 +81,24 @@ class ProcedurePanel(QWidget):
         with QSignalBlocker(self.throw):
             self.throw.clear()
             for part in () if biopsy is None else biopsy.throws:
+                self.throw.addItem(tr("{throw} mm", throw=number(part.throw_mm, "g")))
                 words = tr(
-                    "{throw} mm, notch {notch} mm",
-                    throw=number(part.throw_mm, "g"),
+                    "The notch holds {notch} mm and ends {tip} mm before the needle does",
                     notch=number(part.notch_mm, "g"),
+                    tip=number(part.dead_tip_mm, "g"),
                 )
-                self.throw.addItem(words)
-        for widget in (self.throw, self.notch, self.fire, self._throw_title, self._notch_title):
-            widget.setVisible(biopsy is not None)
+                last = self.throw.count() - 1
+                self.throw.setItemData(last, literal(words), Qt.ItemDataRole.ToolTipRole)
+        self._settings.setVisible(biopsy is not None)
+        self.fire.setVisible(biopsy is not None)
 
     def _show(self, state: ProcedureState, commands: bool, inside: bool) -> None:
         self.held.setText(tr("Held: {tool}", tool=translated(state.words)))
         possible = set(state.possible) if commands else set()
         # After its throw the gun comes out; after a sample the stylet goes back before the next.
         possible.discard(Step.INJECT if not inside else Step.TAKE_NEEDLE)
+        if not state.deposits:  # whoever presses the key at once has not begun yet
+            possible.discard(Step.TAKE_NEEDLE)
         order = [step for step in NEXT if step in possible]
         if Step.GUN_IN in order and Step.STYLET_IN in order and self._step is Step.GUN_OUT:
             order.remove(Step.GUN_IN)
@@ -102,8 +106,26 @@ class ProcedurePanel(QWidget):
         self.next.setText(_words(self._step) if order else tr("Next step (J)"))
         self.next.setVisible(bool(order) or state.part.biopsy is not None)
         self._enable(possible, bool(order))
-        self.results.setText("\n".join(_results(state)))
+        self.results.setText("\n".join((*self._warnings(state), *_results(state))))
         self.results.setVisible(bool(self.results.text()))
+
+    def _show_again(self) -> None:
+        state, commands, inside = self._shown
+        if state is not None:
+            self._show(state, commands, inside)
+
+    def _warnings(self, state: ProcedureState) -> list[str]:
+        """Say what the chosen throw would run into by the plan, and where to stop for it."""
+        number_of = self.throw.currentIndex()
+        if state.samples or not 0 <= number_of < len(state.plans):
+            return []
+        plan = state.plans[number_of]
+        words = tr(
+            "By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion",
+            depth=plan.stop_mm,
+            mm=plan.lesion_mm,
+        )
+        return [words, *(f"▲ {translated(hit.sentence)}" for hit in plan.hits)]
 
     def _enable(self, possible: set[Step], has_next: bool = False) -> None:
         self.next.setEnabled(has_next)
@@ -127,6 +149,7 @@ class ProcedurePanel(QWidget):
         )
         self.next.setToolTip(literal(tr("What follows in the usual order")))
         self.throw.setToolTip(tr("How far the gun's needle runs ahead of the outer needle's tip"))
+        self.throw.currentIndexChanged.connect(lambda _: self._show_again())
         self.notch.setToolTip(
             tr("To which side the notch is open, as on a clock seen from the hub: 12 is the front")
         )
@@ -146,27 +169,35 @@ class ProcedurePanel(QWidget):
             self._keys.append((shortcut, button))
         self._enable(set())
 
+    def set_narrow(self, narrow: bool) -> None:
+        """Suit a rail, or a panel of the usual width."""
+        grid = self._grid
+        for title in self._titles:
+            title.setVisible(not narrow)
+        if narrow:
+            grid.addWidget(self.throw, 0, 0)
+            grid.addWidget(self.notch, 0, 1)
+        else:
+            for row, (title, box) in enumerate(
+                zip(self._titles, (self.throw, self.notch), strict=True)
+            ):
+                grid.addWidget(title, row, 0)
+                grid.addWidget(box, row, 1)
+        grid.setColumnStretch(0, int(narrow))
+        grid.setColumnStretch(1, 1)
+
     def _lay_out(self) -> None:
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(4)
-        title = PlainLabel(tr("Procedure"), self)
-        title.setProperty("role", "heading")
-        grid = QGridLayout()
+        self._settings = QWidget(self)
+        self._titles = tuple(PlainLabel(words, self) for words in (tr("Throw"), tr("Notch")))
+        self._grid = grid = QGridLayout(self._settings)
         grid.setContentsMargins(0, 0, 0, 0)
-        self._throw_title = PlainLabel(tr("Throw"), self)
-        self._notch_title = PlainLabel(tr("Notch"), self)
-        for row, (words, box) in enumerate(
-            ((self._throw_title, self.throw), (self._notch_title, self.notch))
-        ):
-            grid.addWidget(words, row, 0)
-            grid.addWidget(box, row, 1)
-        grid.setColumnStretch(1, 1)
-        for widget in (title, self.held, self.next):
+        grid.setVerticalSpacing(4)
+        for widget in (self.held, self.next, self._settings, self.fire, self.results):
             column.addWidget(widget)
-        column.addLayout(grid)
-        for widget in (self.fire, self.results):
-            column.addWidget(widget)
+        self.set_narrow(False)
 
 
 def _words(step: Step | None) -> str:
@@ -184,7 +215,7 @@ def _results(state: ProcedureState) -> list[str]:
     """Say what was given and taken, a line each."""
     lines = []
     if state.deposits:
-        lines.append(tr("Local anaesthetic: {n} times", n=state.deposits))
+        lines.append(tr("Local anaesthetic given: {n}×", n=state.deposits))
     biopsy = state.part.biopsy
     least = 0.0 if biopsy is None else biopsy.diagnostic_mm
     for count, sample in enumerate(state.samples, start=1):
@@ -194,7 +225,7 @@ def _results(state: ProcedureState) -> list[str]:
 
 def _sample_words(count: int, sample: SampleMark, least_mm: float) -> str:
     words = (
-        tr("✔ Sample {n}: {mm:.1f} mm of lesion, sufficient", n=count, mm=sample.lesion_mm)
+        tr("✔ Sample {n}: {mm:.1f} mm of lesion", n=count, mm=sample.lesion_mm)
         if sample.is_diagnostic
         else tr(
             "✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed",

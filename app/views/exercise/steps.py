@@ -8,6 +8,7 @@ from PySide6.QtGui import QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.units import MILLIMETRE
+from app.session.procedure import ProcedureState, Tool
 from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, StepKind
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
@@ -53,6 +54,8 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
     """
     if step.touch is not None:
         return touch_words(step, step.touch)
+    if step.procedure is not None:
+        return procedure_words(step.procedure, step.inside)
     mm = step.distance / MILLIMETRE
     inwards = tr(" (wheel away from you)") if by_mouse else ""
     outwards = tr(" (wheel towards you)") if by_mouse else ""
@@ -157,6 +160,30 @@ def touch_words(step: NextStep, touch: TouchState) -> str:
         said.append(tr("push {mm} mm", mm=mm) if step.distance > 0.0 else tr("pull {mm} mm", mm=mm))
     way = ", ".join(said) or tr("a little nearer")
     return tr("Target {n} of {of}: {way}", n=number, of=of, way=way)
+
+
+def procedure_words(state: ProcedureState, inside: bool) -> str:
+    """Say which step of a procedure is next.
+
+    Args:
+        state: how the attempt stands with them.
+        inside: whether the tip is in the body.
+    """
+    if state.tool is Tool.ANAESTHETIC and state.deposits:
+        if inside:
+            return tr("Draw the needle out, or give more (J)")
+        return tr("Take the outer needle (J)")
+    if state.tool is Tool.STYLET and state.samples:
+        return tr("Another sample: stylet out (J). Enter ends the attempt")
+    return {
+        Tool.ANAESTHETIC: tr(
+            "Push to just before pleura or capsule, then give local anaesthetic (J)"
+        ),
+        Tool.STYLET: tr("Stop with the tip at the lesion's near edge, then stylet out (J)"),
+        Tool.OPEN: tr("The hub is open: gun in, or stylet in (J)"),
+        Tool.GUN: tr("Hold still and fire (Ctrl+J)"),
+        Tool.FIRED: tr("Gun out (J)"),
+    }[state.tool]
 
 
 def breath_words(breath: BreathHold, words: str, commands: bool) -> str:

@@ -31,6 +31,7 @@ from app.session.course import (
     refusals,
     waiting_for_release,
 )
+from app.session.course_plan import course_plans
 from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
@@ -43,6 +44,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
 from app.views.kit.roles import EVERYBODY, STAFF, Role
 from app.views.kit.text import declared, tr, tr_n, translated
+from app.views.people.course_form import CourseDialog
 from app.views.people.curve import CurveDialog
 from app.views.people.folder_backups import FolderBackups
 from app.views.people.group_report import group_report
@@ -52,7 +54,6 @@ from app.views.people.lrs_link import LrsLink
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
-    CourseDialog,
     EntryDialog,
     PeoplePage,
     text_dialog,
@@ -509,7 +510,8 @@ class PeopleFeature(Feature):
 
         groups = sorted({name for one in self._people.everybody() for name in one.groups})
         parent = self._shell.dialog_parent
-        self._open(CourseDialog(course, self._exercises(), take, groups, parent))
+        plans = [] if course is not None else course_plans()
+        self._open(CourseDialog(course, self._exercises(), take, groups, plans, parent))
 
     def begin_of_course(self, standing: CourseStanding) -> None:
         """Begin an exercise of a course, or say why that cannot be."""

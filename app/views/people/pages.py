@@ -26,8 +26,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPlainTextEdit,
-    QSpinBox,
-    QTableWidget,
     QTableWidgetItem,
     QTabWidget,
     QTreeWidget,
@@ -36,25 +34,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
 from app.exercises.guidance import Purpose
-from app.exercises.schema import Exercise
 from app.scoring.competence import CompetenceState
 from app.session.board import BoardCell, ProgressBoard
-from app.session.course import Course, CourseError, CourseStanding, next_of_course
+from app.session.course import Course, CourseStanding, next_of_course
 from app.session.people import Person
 from app.views.kit import theme
-from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import declared, listing, literal, tr, tr_n, translated
+from app.views.kit.text import listing, literal, tr, tr_n, translated
 from app.views.kit.verdict import Verdict, tell
-from app.views.kit.wheel import wheel_scrolls
 from app.views.people.competence_marks import (
     MARKS,
-    CompetenceRates,
     competence_line,
     mark_words,
     rule_words,
@@ -649,213 +642,6 @@ class EntryDialog(SettingsDialog):
         )
         named = (line for name, line in ordered if name.casefold() in message.casefold())
         return next(named, ordered[0][1])
-
-
-class CourseDialog(SettingsDialog):
-    """A course as a form: exercises in a table, each with version, attempts, purpose and days.
-
-    Args:
-        course: to be changed; None for a new one.
-        exercises: that the library has, by id.
-        take: takes the course; raises an AcusError if it cannot be taken.
-        groups: that students are in.
-        parent: window.
-    """
-
-    def __init__(
-        self,
-        course: Course | None,
-        exercises: Mapping[str, Exercise],
-        take: Callable[[Course], object],
-        groups: Sequence[str] = (),
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(tr("Course"), (860, 520), QDialogButtonBox.StandardButton.Save, parent)
-        self._take, self._exercises, self._known = take, exercises, tuple(groups)
-        self.id, self.title, self.groups = (QLineEdit(self) for _ in range(3))
-        self.ordered = QCheckBox(tr("In order: the next opens when the one before was passed"))
-        self.rates = CompetenceRates(self)
-        self.offered = QComboBox(self)
-        self.offered.setAccessibleName(tr("Exercise to add"))
-        for identifier, exercise in exercises.items():
-            self.offered.addItem(declared(exercise.title), identifier)
-        self.add, self.remove = button(tr("Add")), button(tr("Remove"))
-        titles = (tr("Exercise"), tr("Version"), tr("Attempts"), tr("Purpose"), tr("Opens"))
-        self.items = QTableWidget(0, 6, self)
-        self.items.setTabKeyNavigation(False)
-        self.items.setAccessibleName(tr("Exercises"))
-        self.items.setHorizontalHeaderLabels([*titles, tr("Closes")])
-        self.items.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 8)
-        for place, width in enumerate((230, 80, 90, 120, 125, 125)):
-            self.items.setColumnWidth(place, width)
-        form = QFormLayout()
-        self.groups.setPlaceholderText(tr("separated by commas; empty: everybody"))
-        self.id.setPlaceholderText("autumn-2026")
-        for name, field in (
-            (tr("File name"), self.id),
-            (tr("Title"), self.title),
-            (tr("Groups"), self.groups),
-        ):
-            add_row(form, name, field)
-        add_row(form, tr("Competence"), self.rates)
-        row = QHBoxLayout()
-        row.addWidget(self.offered, 1)
-        row.addWidget(self.add)
-        row.addWidget(self.remove)
-        column = QVBoxLayout(self)
-        column.addLayout(form)
-        column.addWidget(self.ordered)
-        column.addLayout(row)
-        column.addWidget(self.items, 1)
-        column.addWidget(self.note)
-        column.addWidget(self.buttons)
-        self.add.clicked.connect(lambda: self.add_item(self.offered.currentData()))
-        self.remove.clicked.connect(lambda: self.items.removeRow(self.items.currentRow()))
-        lead(self, *((self.id,) if course is None else ()), self.title, self.groups)
-        if course is not None:
-            self._show(course)
-
-    def add_item(
-        self,
-        exercise: str,
-        version: int = 0,
-        attempts: int = 0,
-        purpose: Purpose | None = None,
-        opens: str = "",
-        closes: str = "",
-    ) -> None:
-        """Add an exercise at the end.
-
-        Version 0 pins the one that the library has now; without a purpose it has the exercise's.
-        """
-        known = self._exercises.get(exercise)
-        if purpose is None:
-            purpose = known.purpose if known else Purpose.PRACTICE
-        row = self.items.rowCount()
-        self.items.insertRow(row)
-        name = QTableWidgetItem(known.title if known else exercise)
-        name.setData(Qt.ItemDataRole.UserRole, exercise)
-        name.setToolTip(literal(exercise))
-        name.setFlags(name.flags() & ~Qt.ItemFlag.ItemIsEditable)
-        self.items.setItem(row, 0, name)
-        pinned = QSpinBox()
-        pinned.setRange(1, 9999)
-        pinned.setValue(version or (known.version if known else 1))
-        allowed = QSpinBox()
-        allowed.setRange(0, 999)
-        allowed.setSpecialValueText(tr("any"))
-        allowed.setValue(attempts)
-        kind = QComboBox()
-        kind.addItem(tr("practice"), Purpose.PRACTICE.value)
-        kind.addItem(tr("assessment"), Purpose.ASSESSMENT.value)
-        kind.setCurrentIndex(kind.findData(purpose.value))
-        for column, widget in enumerate((pinned, allowed, kind), 1):
-            self.items.setCellWidget(row, column, widget)
-            wheel_scrolls(widget)
-        for column, text in ((4, opens), (5, closes)):
-            day = QLineEdit(text)
-            day.setPlaceholderText(tr("any day"))
-            day.setToolTip(tr("A day as year-month-day, such as 2026-11-30; empty: any"))
-            self.items.setCellWidget(row, column, day)
-
-    def course(self) -> Course:
-        """Return the course as it stands in the form.
-
-        Raises:
-            CourseError: naming the field as the form does, its value and what would be valid.
-        """
-        groups = [name.strip() for name in self.groups.text().split(",") if name.strip()]
-        document = {
-            "id": self.id.text().strip(),
-            "title": self.title.text().strip(),
-            "groups": groups,
-            "ordered": self.ordered.isChecked(),
-            "items": [self._item(row) for row in range(self.items.rowCount())],
-            "competence": self.rates.document(),
-        }
-        course, problems = checked(document, Course)
-        if course is None:
-            raise self._refused(problems[0])
-        return course
-
-    def _refused(self, problem: FieldProblem) -> CourseError:
-        """Say what is wrong with a field as the form calls it, and put the cursor there."""
-        place, words = problem.field, problem_words(problem)
-        first = str(place[0]) if place else ""
-        lines = {"id": self.id, "title": self.title, "groups": self.groups}
-        names = {"id": tr("File name"), "title": tr("Title"), "groups": tr("Groups")}
-        names["competence"] = tr("Competence")
-        name, field = names.get(first, tr("Course")), lines.get(first)
-        if first == "items" and len(place) > 1:
-            row, key = int(place[1]), str(place[2]) if len(place) > 2 else ""
-            column = ("exercise", "version", "attempts", "purpose", "opens", "closes")
-            at = column.index(key) if key in column else 0
-            item, head = self.items.item(row, 0), self.items.horizontalHeaderItem(at)
-            parts = ("" if item is None else item.text(), head.text() if at and head else "")
-            name = ", ".join(filter(None, parts))
-            self.items.setCurrentCell(row, at)
-            cell = self.items.cellWidget(row, at)
-            (self.items if cell is None else cell).setFocus()
-        elif field is not None:
-            field.setFocus()
-        return CourseError(f"{name}: {words}")
-
-    def check(self) -> None:
-        """Read the form; refuse groups that nobody is in."""
-        course = self.course()
-        unknown = [name for name in course.groups if name not in self._known]
-        if unknown:
-            self.groups.setFocus()
-            there = (
-                tr("there are: {names}", names=listing(self._known))
-                if self._known
-                else tr("there are none yet: add students with their groups first")
-            )
-            raise CourseError(
-                tr(
-                    "Groups: no student is in {name}; {there}. Empty means everybody.",
-                    name=unknown[0],
-                    there=there,
-                )
-            )
-
-    def keep(self) -> None:
-        """Hand the course on; a name that is taken is typed anew."""
-        try:
-            self._take(self.course())
-        except CourseError:
-            self.id.setFocus()
-            self.id.selectAll()
-            raise
-
-    def _item(self, row: int) -> dict[str, object]:
-        name = self.items.item(row, 0)
-        found: dict[str, object] = {
-            "exercise": "" if name is None else name.data(Qt.ItemDataRole.UserRole)
-        }
-        for column, key in ((1, "version"), (2, "attempts")):
-            widget = self.items.cellWidget(row, column)
-            if isinstance(widget, QSpinBox) and widget.value():
-                found[key] = widget.value()
-        kind = self.items.cellWidget(row, 3)
-        if isinstance(kind, QComboBox):
-            found["purpose"] = kind.currentData()
-        for column, key in ((4, "opens"), (5, "closes")):
-            day = self.items.cellWidget(row, column)
-            if isinstance(day, QLineEdit) and day.text().strip():
-                found[key] = day.text().strip()
-        return found
-
-    def _show(self, course: Course) -> None:
-        self.rates.show_rule(course.competence)
-        self.id.setText(course.id)
-        self.id.setReadOnly(True)
-        self.title.setText(course.title)
-        self.groups.setText(", ".join(course.groups))
-        self.ordered.setChecked(course.ordered)
-        for item in course.items:
-            days = [str(day) if day else "" for day in (item.opens, item.closes)]
-            self.add_item(item.exercise, item.version, item.attempts or 0, item.purpose, *days)
 
 
 class OnceDialog(QDialog):

@@ -43,6 +43,7 @@ def skill_title(skill: PractisedSkill) -> str:
         PractisedSkill.BREATH: tr("With the breath"),
         PractisedSkill.CLEARANCE: tr("Past what must not be met"),
         PractisedSkill.PLAN: tr("Plan and control"),
+        PractisedSkill.PROCEDURE: tr("Whole procedures"),
         PractisedSkill.MACHINE: tr("Research machines"),
     }[skill]
 

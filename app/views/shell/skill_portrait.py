@@ -130,6 +130,14 @@ def _sign(
     elif skill is PractisedSkill.BREATH:
         beside = -15.0 if along.x() > 3.0 * unit else 15.0
         _breath(painter, target + QPointF(beside * unit, 0.0), unit, exercise.holds_breath)
+    elif skill is PractisedSkill.PROCEDURE:
+        for way in (-1.0, 1.0):  # the notch of the gun's needle about the lesion
+            off = side * (way * 4.0 * unit)
+            _line(
+                painter,
+                [target + out * (9.0 * unit) + off, target - out * (9.0 * unit) + off],
+                theme.TARGET.colour,
+            )
     elif skill is PractisedSkill.CLEARANCE:
         for way in (-1.0, 1.0):
             off = side * (way * 7.0 * unit)
