@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import hypot, isfinite
 from typing import TYPE_CHECKING, Final
@@ -18,6 +18,7 @@ from app.device.readiness import ForceClearance
 from app.device.state import DeviceState
 from app.planning.off_path import Offset
 from app.planning.placement import PlacedPlan
+from app.session.ablation import AblationState
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
@@ -402,6 +403,8 @@ class NextSteps:
             return step
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
         own = NextStep(StepKind.PROCEDURE, procedure=state, inside=inside)
+        if state.ablation is not None and state.tool is Tool.ELECTRODE:
+            return _in_ablation(step, own, state.ablation)
         if state.tool is Tool.ANAESTHETIC:
             aims = step.kind in (StepKind.TILT, StepKind.LOOK, StepKind.SCAN) and not inside
             return step if aims and not state.deposits else own
@@ -456,3 +459,16 @@ class NextSteps:
         ]
         parts.sort(reverse=True)
         return parts[0][1] + (parts[1][1] if parts[1][0] > SECOND_SIDE * parts[0][0] else "")
+
+
+def _in_ablation(step: NextStep, own: NextStep, ablation: AblationState) -> NextStep:
+    """Say what is next with electrodes: leave one, draw back for the next, ablate, end."""
+    if ablation.reached is not None:
+        return NextStep(StepKind.FINISH)
+    if ablation.all_placed:
+        return own
+    if own.inside and step.kind in (StepKind.HOLD, StepKind.FINISH, StepKind.LOOK):
+        return own
+    if own.inside and ablation.electrodes and step.kind is StepKind.TILT:
+        return replace(own, inside=False)  # it still lies beside the electrode that was left
+    return step
