@@ -117,6 +117,8 @@ def _lines(document: dict[str, Any]) -> list[str]:
                 )
             )
     lines += complication_lines(document["complications"])
+    if document["ablation"] is not None:
+        lines += ablation_lines(document["ablation"])
     for line in document["pass_lines"]:
         lines.append(
             sentence(
@@ -157,6 +159,39 @@ def complication_lines(document: dict[str, Any] | None) -> list[str]:
             sentence("    not known, as in the case mix: {factors}", factors=listed(unknown))
         )
     lines += [sentence("    {source}", source=source) for source in document["sources"]]
+    return lines
+
+
+def ablation_lines(ablation: dict[str, Any]) -> list[str]:
+    """Return what is ablated: generator, electrodes and the planned margin."""
+    lines: list[str] = [
+        sentence(
+            "\n  ablates with {electrodes} electrodes, one after another through one entry, "
+            "{power:g} W for {minutes:g} min",
+            electrodes=len(ablation["depths_mm"]),
+            power=ablation["power_w"],
+            minutes=ablation["minutes"],
+        ),
+        _row(sentence("generator"), ablation["generator"]),
+        _row(sentence("source"), ablation["source"]),
+    ]
+    if ablation["planned_margin_mm"] is not None:
+        words = sentence(
+            "{margin:.1f} mm planned of {wanted:g} wanted, {share:.1f} % of the lesion",
+            margin=ablation["planned_margin_mm"],
+            wanted=ablation["wanted_mm"],
+            share=100.0 * ablation["planned_share"],
+        )
+        lines.append(_row(sentence("margin"), words))
+    lines += [
+        _row(
+            sentence("note"),
+            sentence(
+                "{vessel} lies within 3 mm of the zone: what it cools is not reckoned", vessel=name
+            ),
+        )
+        for name in ablation["vessels"]
+    ]
     return lines
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from app.compose.declared_views import declared_views
+from app.compose.explaining_ablation import planned_ablation
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.messages import sentence
@@ -59,6 +60,7 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     document["laws"] = _laws(law_requests(exercise), profile)
     document["touch"] = _touch(exercise, profile)
     document["complications"] = _complications(exercise, patient)
+    document["ablation"] = planned_ablation(exercise, profile, bound)
     document["pass_lines"] = pass_lines(exercise.tolerances)
     return document
 
@@ -203,6 +205,10 @@ def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[s
             check_touch(exercise.touch_task(placed_plan_of(exercise, profile)), profile)
         except AcusError as error:
             wrong.append(("touch", str(error)))
+    try:
+        planned_ablation(exercise, profile, None)
+    except AcusError as error:
+        wrong.append(("procedure", str(error)))
     missing = [part.file for part in exercise.structures if not part.file.is_file()]
     wrong += [("structures", f"there is no file {path}") for path in missing]
     if exercise.ct.folder is not None and not exercise.ct.folder.exists():

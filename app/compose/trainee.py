@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from app.core.parameters import Stage
 from app.core.units import MILLIMETRE
+from app.exercises.ablation import AblationPart, electrode_plans
 from app.exercises.procedure import ProcedurePart
 from app.exercises.schema import Exercise
 from app.imaging.field import TissueField
 from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
 from app.session.scripted_steps import sampling_time
+from app.simulation.electrode_script import one_after_another
 from app.simulation.hands import HANDS, SUFFIX, write_hand_script
 from app.simulation.procedure_script import Stops, with_stops
 from app.simulation.skills import find_skill
@@ -38,6 +42,8 @@ def trainee_of(
     Raises:
         AcusError: for an unknown skill, or targets that no tip can touch.
     """
+    if exercise.procedure is not None and exercise.procedure.ablation is not None:
+        return _with_electrodes(exercise, exercise.procedure.ablation, placed, skill, seed)
     task = exercise.touch_task(placed)
     holds = exercise.holds_breath
     depth, stops = placed.length, None
@@ -56,6 +62,22 @@ def trainee_of(
     touching = skill.removesuffix(SUFFIX) if skill in HANDS else skill
     script = write_touch_script(placed.axis, ways, task.radius, task.dwell, touching, seed)
     return script_stage(script, placed.axis)
+
+
+def _with_electrodes(
+    exercise: Exercise, part: AblationPart, placed: PlacedPlan, skill: str, seed: int
+) -> Stage:
+    """Build the stage of a trainee who leaves electrodes in place, one after another."""
+    plans, holds = electrode_plans(part, placed), exercise.holds_breath
+    scripts = [
+        write_hand_script(placed.axis, plan.length, HANDS[skill], seed + 1000 * k, holds)
+        if skill in HANDS
+        else write_script(placed.axis, plan.length, find_skill(skill), seed + 1000 * k)
+        for k, plan in enumerate(plans)
+    ]
+    axes = np.array([plan.axis for plan in plans])
+    script = one_after_another(scripts, axes, placed.axis)
+    return script_stage(script, placed.axis, holds_at=placed.length if holds else None)
 
 
 SHORT_OF = 1.5 * MILLIMETRE

@@ -31,6 +31,7 @@ from app.core.parameters import Stage
 from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
+from app.exercises.ablation import check_electrodes
 from app.exercises.errors import ExerciseError
 from app.exercises.parts import TissueSource
 from app.exercises.scene import compile_exercise, device_of, law_requests
@@ -231,6 +232,7 @@ class Rig:
         """
         setup = replace(self.setup, placed=placed)
         check_touch(setup.exercise.touch_task(placed), self.profile)
+        check_electrodes(setup.exercise.electrodes, placed, self.profile)
         table = (
             loop_table(setup, self.profile, self.robot is None, self.robot)
             if self.source is None
@@ -260,6 +262,7 @@ def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
     """
     profile = device_of(setup.exercise)
     check_touch(setup.exercise.touch_task(setup.placed), profile)
+    check_electrodes(setup.exercise.electrodes, setup.placed, profile)
     if setup.source is not None:
         return _build_source_rig(setup, setup.source(profile))
     real = None

@@ -51,8 +51,7 @@ from app.device.control import Table
 from app.exercises.guidance import Purpose
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
-from app.scoring.met import Met
-from app.scoring.procedure import ProcedureMarks
+from app.session.ablation import AblationState
 from app.session.complications import ComplicationCase
 from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
@@ -65,7 +64,7 @@ from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
 from app.session.scripted_answers import ScriptedPatient
-from app.session.scripted_steps import steps_of_rows
+from app.session.scripted_steps import StepsDone, steps_of_rows
 from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
 from app.session.transitions import LOST
@@ -216,7 +215,9 @@ class Trials:
         self._case = ComplicationCase.of(exercise, placed, tissues)
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
-        self._pulls = self._task is not None and bool(exercise.laws)
+        self._ablation = AblationState.of(exercise.procedure, placed, tissues)
+        moves = self._task is not None or self._ablation is not None
+        self._pulls = moves and bool(exercise.laws)
         setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN), tissues=tissues)
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
@@ -273,7 +274,8 @@ class Trials:
         samples = self._samples(rows)
         faults = rows[rows[:, sv.TIME] > begin + GRACE, sv.FAULT]
         touching = None if self._task is None else Touching(self._task)
-        went = TrialCourse.of(samples, begin, touching)
+        steps = self._steps(samples, rows, skill, seed)
+        went = TrialCourse.of(samples, begin, touching, None if steps is None else steps.aside)
         if faults.any() or went.unseen >= LOST or (self._pulls and dial != 0.0):
             return None
         samples = replace(samples, state=went.states, target=went.target)
@@ -287,26 +289,19 @@ class Trials:
             touches=went.touches,
             met=met,
             planned=self._planned,
-            procedure=self._steps(samples, rows, met, skill, seed),
+            procedure=None if steps is None else marks_of(steps.events, samples, met, self._placed),
         )
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
-    def _steps(
-        self,
-        samples: Samples,
-        rows: FloatArray,
-        met: tuple[Met, ...] | None,
-        skill: str,
-        seed: int,
-    ) -> ProcedureMarks | None:
+    def _steps(self, samples: Samples, rows: FloatArray, skill: str, seed: int) -> StepsDone | None:
         part = self._exercise.procedure
         if part is None:
             return None
         phases = rows[:, sv.TRAINEE_PHASE]
         is_assessment = self._exercise.purpose is Purpose.ASSESSMENT
         patient = ScriptedPatient.of(self._case, skill, 0 if is_assessment else seed)
-        events = steps_of_rows(part, samples, phases, self._placed, self._tissues, patient)
-        return marks_of(events, samples, met, self._placed)
+        begin = self._placed, self._tissues, self._ablation, patient
+        return steps_of_rows(part, samples, phases, *begin)
 
     def truth(self, rows: FloatArray) -> Samples:
         """Return the needle as it truly was at each look, whatever the cameras saw of it."""
@@ -408,6 +403,7 @@ class Trials:
         )
         low, high = self._profile.depth_range
         aims = (placed,) if self._task is None else self._task.plans
+        aims = aims if self._ablation is None else self._ablation.plans
         deepest = max(plan.length for plan in aims)
         last = min(high, deepest + BEYOND)
         depths = np.arange(min(low, START_DEPTH), last + STEP, STEP)

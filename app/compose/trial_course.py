@@ -34,8 +34,17 @@ class TrialCourse:
     touches: Touches | None = None
 
     @classmethod
-    def of(cls, samples: Samples, begin: float, touching: Touching | None = None) -> TrialCourse:
-        """Judge samples that are all taken for `aligning`, of an attempt from `begin` [s] on."""
+    def of(
+        cls,
+        samples: Samples,
+        begin: float,
+        touching: Touching | None = None,
+        aside: FloatArray | None = None,
+    ) -> TrialCourse:
+        """Judge samples that are all taken for `aligning`, of an attempt from `begin` [s] on.
+
+        `aside` is from the target of the samples to the one at hand [m], shape (n, 3).
+        """
         attempt = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin)
         memory = Classifier()
         seen = (samples.depth_source == DepthSource.TRACKED.value) & samples.valid
@@ -46,7 +55,8 @@ class TrialCourse:
             if touching is not None and shift is not None:
                 target[k] = touching.state.aim.p_target + shift[k]
             depth = depths[k] if seen[k] else None
-            away = float(np.linalg.norm(samples.tip[k] - target[k]))
+            there = target[k] if aside is None else target[k] + aside[k]
+            away = float(np.linalg.norm(samples.tip[k] - there))
             memory, event = classify(memory, attempt.state, time, depth, away)
             if event is not None:
                 attempt = machine.advance(attempt, event, time)

@@ -11,11 +11,21 @@ from pydantic import Field, model_validator
 
 from app.core.configuration import Strict
 from app.core.messages import sentence, sentence_of
+from app.exercises.ablation import AblationPart
 from app.planning.errors import PlanError
 from app.planning.sampling import Throw
 
 OF_PROCEDURES: Final = {
     "anaesthetic": frozenset({"anaesthetic_gap", "pierced_by_anaesthetic"}),
+    "ablation": frozenset(
+        {
+            "ablated_share",
+            "electrode_spacing",
+            "least_margin",
+            "vessels_near_zone",
+            "zone_reaches",
+        }
+    ),
     "biopsy": frozenset({"diagnostic_samples", "lesion_in_sample", "throw_hits", "hub_open_time"}),
     "complications": frozenset({"complication_noticed", "complication_answer"}),
 }
@@ -124,11 +134,21 @@ class ProcedurePart(Strict):
         anaesthetic: local anaesthetic first, by a needle of its own.
         biopsy: samples through a coaxial needle.
         complications: what can happen to the lung, and has to be noticed and answered.
+        ablation: electrodes left in place one after another, then the generator.
     """
 
     anaesthetic: AnaestheticPart | None = None
     biopsy: BiopsyPart | None = None
     complications: ComplicationsPart | None = None
+    ablation: AblationPart | None = None
+
+    @model_validator(mode="after")
+    def _one_tool_at_a_time(self) -> ProcedurePart:
+        if self.biopsy is not None and self.ablation is not None:
+            raise ValueError(
+                sentence("procedure: samples and ablation are two exercises: leave one out")
+            )
+        return self
 
     @model_validator(mode="after")
     def _asks_for_something(self) -> ProcedurePart:

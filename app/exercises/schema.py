@@ -9,6 +9,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_
 
 from app.core.configuration import Strict
 from app.core.messages import sentence, sentence_of
+from app.exercises.ablation import AblationPart
 from app.exercises.drill import DrillPart
 from app.exercises.guidance import (
     FadingPart,
@@ -288,6 +289,13 @@ class Exercise(Strict):
                     "procedure: what a step meets is looked up in the patient: use tissue: field"
                 )
             )
+        if self.electrodes is not None and not isinstance(self.plan, PlanPoints):
+            raise ValueError(
+                sentence(
+                    "procedure: electrodes lie about a path that the file names: give plan "
+                    "entry_mm and target_mm"
+                )
+            )
         if self.procedure is not None and self.touch is not None:
             raise ValueError(sentence("procedure: a tool that touches targets takes no steps"))
         happens = self.procedure is not None and self.procedure.complications is not None
@@ -345,6 +353,11 @@ class Exercise(Strict):
             AcusError: if targets find no room, or lie on the entry.
         """
         return touch_task(self.touch, placed, self.seed)
+
+    @property
+    def electrodes(self) -> AblationPart | None:
+        """Return what is ablated; None for nothing."""
+        return None if self.procedure is None else self.procedure.ablation
 
     @property
     def is_own_plan(self) -> bool:

@@ -7,8 +7,9 @@ from math import isfinite
 
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
+from app.scoring.ablation import AblationMark
 from app.scoring.complications.marks import ComplicationMarks
-from app.scoring.errors import TrajectoryError
+from app.scoring.errors import MetricUnavailableError, TrajectoryError
 from app.scoring.met import BY_TIP, Met
 
 
@@ -71,6 +72,7 @@ class ProcedureMarks:
             was from the beginning.
         met_before: what the needle for local anaesthetic met.
         complications: that happened, and what was done about them; None where none can.
+        ablation: by the electrodes that were left in place; None where nothing was ablated.
     """
 
     deposits: tuple[Deposit, ...] = ()
@@ -79,6 +81,17 @@ class ProcedureMarks:
     needle_from: float | None = None
     met_before: tuple[Met, ...] = ()
     complications: ComplicationMarks | None = None
+    ablation: AblationMark | None = None
+
+    def ablated(self) -> AblationMark:
+        """Return what was ablated.
+
+        Raises:
+            MetricUnavailableError: if nothing was.
+        """
+        if self.ablation is None:
+            raise MetricUnavailableError(sentence("nothing was ablated"))
+        return self.ablation
 
     @property
     def pierced(self) -> tuple[Met, ...]:

@@ -25,9 +25,12 @@ from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.planning.sampling import AtRest, SamplePlan, core, plan_sample
+from app.scoring.ablation import AblationMark
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import Met
 from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
+from app.session import ablation as ablating
+from app.session.ablation import AblationState
 from app.session.complications import marks_of_complications
 from app.session.errors import ProcedureNotPossibleError
 from app.session.needle_now import NeedleNow
@@ -56,6 +59,8 @@ class Tool(StrEnum):
     """The outer needle with the biopsy gun in it, cocked."""
     FIRED = "fired"
     """The same after its throw."""
+    ELECTRODE = "electrode"
+    """An electrode for ablation."""
 
 
 class Step(StrEnum):
@@ -68,6 +73,11 @@ class Step(StrEnum):
     GUN_IN = "gun_in"
     FIRE = "fire"
     GUN_OUT = "gun_out"
+    PLACE_ELECTRODE = ablating.PLACE
+    ABLATE = ablating.ABLATE
+
+
+OF_ABLATION: Final = (Step.PLACE_ELECTRODE, Step.ABLATE)
 
 
 STEP_WORDS: Final = {
@@ -78,6 +88,8 @@ STEP_WORDS: Final = {
     Step.GUN_IN: sentence("biopsy gun in"),
     Step.FIRE: sentence("biopsy gun fired"),
     Step.GUN_OUT: sentence("biopsy gun out: the hub is open"),
+    Step.PLACE_ELECTRODE: sentence("electrode left in place"),
+    Step.ABLATE: sentence("the generator has ablated"),
 }
 
 _FROM: Final = {
@@ -88,6 +100,8 @@ _FROM: Final = {
     Step.GUN_IN: (Tool.OPEN,),
     Step.FIRE: (Tool.GUN,),
     Step.GUN_OUT: (Tool.GUN, Tool.FIRED),
+    Step.PLACE_ELECTRODE: (Tool.ELECTRODE,),
+    Step.ABLATE: (Tool.ELECTRODE,),
 }
 _TO: Final = {
     Step.TAKE_NEEDLE: Tool.STYLET,
@@ -103,6 +117,7 @@ TOOL_WORDS: Final = {
     Tool.OPEN: sentence("outer needle, open to air"),
     Tool.GUN: sentence("outer needle with the biopsy gun, cocked"),
     Tool.FIRED: sentence("outer needle with the biopsy gun, fired"),
+    Tool.ELECTRODE: sentence("electrode"),
 }
 
 
@@ -117,6 +132,7 @@ class ProcedureState:
         samples: what each sample was, in order.
         plans: where to stop for each setting of the gun by the planned path, and what its throw
             would run into there; empty where nothing can tell.
+        ablation: how it stands with electrodes; None where none are asked for.
     """
 
     part: ProcedurePart
@@ -124,10 +140,15 @@ class ProcedureState:
     deposits: int = 0
     samples: tuple[SampleMark, ...] = ()
     plans: tuple[SamplePlan, ...] = ()
+    ablation: AblationState | None = None
 
     @classmethod
     def at_begin(
-        cls, part: ProcedurePart, plan: Plan | None = None, field: TissueField | None = None
+        cls,
+        part: ProcedurePart,
+        plan: Plan | None = None,
+        field: TissueField | None = None,
+        ablation: AblationState | None = None,
     ) -> ProcedureState:
         """Return the state with which an attempt begins, on a planned path in a field."""
         plans: tuple[SamplePlan, ...] = ()
@@ -137,8 +158,8 @@ class ProcedureState:
                 plans = tuple(
                     plan_sample(field, plan.entry_mm, plan.target_mm, throw) for throw in throws
                 )
-        tool = Tool.STYLET if part.anaesthetic is None else Tool.ANAESTHETIC
-        return cls(part, tool, plans=plans)
+        tool = _own_tool(part) if part.anaesthetic is None else Tool.ANAESTHETIC
+        return cls(part, tool, plans=plans, ablation=ablation)
 
     @property
     def words(self) -> str:
@@ -152,13 +173,18 @@ class ProcedureState:
 
     def refusal(self, step: Step) -> str:
         """Return why a step cannot follow now; empty if it can."""
-        if step is not Step.TAKE_NEEDLE and step is not Step.INJECT and self.part.biopsy is None:
+        if step in OF_ABLATION and self.ablation is None:
+            return sentence("this exercise ablates nothing")
+        gun = step not in (Step.TAKE_NEEDLE, Step.INJECT, *OF_ABLATION)
+        if gun and self.part.biopsy is None:
             return sentence("this exercise takes no samples")
         if self.tool not in _FROM[step]:
             return sentence(
                 "not possible now: held is the {tool}",
                 tool=TOOL_WORDS[self.tool],
             )
+        if step in OF_ABLATION and self.ablation is not None:
+            return self.ablation.refusal(step.value)
         anaesthetic, biopsy = self.part.anaesthetic, self.part.biopsy
         if step is Step.INJECT and anaesthetic and self.deposits >= anaesthetic.most_deposits:
             return sentence("the syringe is empty after {count} times", count=self.deposits)
@@ -167,6 +193,11 @@ class ProcedureState:
                 "{count} samples were taken: the exercise allows no more", count=len(self.samples)
             )
         return ""
+
+
+def _own_tool(part: ProcedurePart) -> Tool:
+    """Return what the exercise's own needle is."""
+    return Tool.STYLET if part.ablation is None else Tool.ELECTRODE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -206,7 +237,8 @@ def perform(
         look: the needle now; None where nobody has seen it yet.
         placed: the plan, for where the patient lies.
         field: of the patient's tissue.
-        throw: which of the gun's settings, for `FIRE`.
+        throw: which of the gun's settings, for `FIRE`; which row of the generator's table, for
+            `ABLATE`.
         notch_deg: direction of the notch, for `FIRE`.
         time: monotonic time [s].
 
@@ -218,9 +250,14 @@ def perform(
     """
     if refusal := state.refusal(step):
         raise ProcedureNotPossibleError(refusal)
-    _require_place(step, look)
+    if step is not Step.ABLATE:
+        _require_place(step, look)
     data: dict[str, object] = {"version": VERSION, "step": step.value}
-    state = replace(state, tool=_TO.get(step, state.tool))
+    if step in OF_ABLATION:
+        state, words, more = _of_ablation(state, step, look, field, throw)
+        return state, words, data | more
+    tool = _own_tool(state.part) if step is Step.TAKE_NEEDLE else _TO.get(step, state.tool)
+    state = replace(state, tool=tool)
     words = STEP_WORDS[step]
     if step not in (Step.INJECT, Step.FIRE):
         return state, words, data
@@ -258,6 +295,7 @@ def marks_of(
     taken: list[SampleMark] = []
     needle_from: float | None = None
     open_from: float | None = None
+    ablated: AblationMark | None = None
     opened: list[tuple[float, float]] = []
     for event, step in steps:
         data: dict[str, Any] = dict(event.data)
@@ -271,6 +309,8 @@ def marks_of(
                 )
             elif step is Step.FIRE:
                 taken.append(_mark(event.time, data))
+            elif step is Step.ABLATE:
+                ablated = ablating.mark_of(data)
         if step is Step.TAKE_NEEDLE:
             needle_from = event.time
         if step in (Step.STYLET_OUT, Step.GUN_OUT) and open_from is None:
@@ -288,7 +328,13 @@ def marks_of(
     if placed is not None and len(samples.time):
         happened = marks_of_complications(events, placed, float(samples.time[-1]))
     return ProcedureMarks(
-        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before, happened
+        tuple(deposits),
+        tuple(taken),
+        _open_time(opened, samples),
+        needle_from,
+        before,
+        happened,
+        ablated,
     )
 
 
@@ -387,6 +433,24 @@ def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | Non
         at_rest,
         look.fallen_mm,
     )
+
+
+def _of_ablation(
+    state: ProcedureState,
+    step: Step,
+    look: NeedleNow | None,
+    field: TissueField | None,
+    row: int,
+) -> tuple[ProcedureState, str, dict[str, object]]:
+    ablation = state.ablation
+    if ablation is None or look is None:
+        raise ProcedureNotPossibleError(sentence("this exercise ablates nothing"))
+    if step is Step.ABLATE:
+        ablation, data = ablation.ablate(row)
+        return replace(state, ablation=ablation), STEP_WORDS[step], data
+    of_needle = look.p_tip, look.tip_axis, look.depth, look.p_target
+    ablation, data = ablation.place(ablating.electrode_at(*of_needle, ablation.aim, field))
+    return replace(state, ablation=ablation), ablating.electrode_words(ablation), data
 
 
 def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit:

@@ -27,6 +27,7 @@ from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.score import with_shown
 from app.scoring.tolerance import Bands
+from app.session.ablation_shown import AblationShown
 from app.session.along_path import AlongPath
 from app.session.attempt_clock import AttemptClock
 from app.session.calibration_flag import CalibrationFlags
@@ -212,6 +213,7 @@ class Review:
         planned: what a planner says of the student's own path; None where it was given.
         drill: what it was a drill of; None for a whole exercise.
         practise: the drill that it calls for; None where it calls for none.
+        ablation: planned against reached; None where nothing was ablated.
     """
 
     id: str
@@ -253,6 +255,7 @@ class Review:
     planned: JudgedPlan | None = None
     drill: DrillPart | None = None
     practise: DrillKind | None = None
+    ablation: AblationShown | None = None
 
     def targets(self, row: int) -> TargetMarks | None:
         """Return the targets that were to be touched as they stood at a sample; None without."""
@@ -382,6 +385,7 @@ def review(recording: Recording) -> Review:
         planned=None if withheld else past.planned,
         steps=None if withheld else past.steps,
         drill=None if exercise is None else exercise.drill,
+        ablation=AblationShown.of_events(recording.events),
         practise=drill_for(score, past, exercise),
     )
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, read_only
 from app.core.events import Event, EventQueue
 from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
@@ -22,6 +23,7 @@ from app.session.needle_now import NeedleNow
 from app.session.observation import Observation
 from app.session.procedure import ProcedureState, Step
 from app.session.result import AttemptResult
+from app.session.sample import Sample
 from app.session.snapshot import DRAWN_LATE
 from app.session.transitions import (
     DEFAULT,
@@ -95,6 +97,8 @@ class RunningAttempt:
     Attributes:
         attempt: the present one, or the last.
         log: what it leaves behind; None before the first.
+        aside: from the plan's target to the one at hand [m], shape (3,), which the record does
+            without, as it has one plan; None where that is the same, or targets are touched.
         events: for the window.
     """
 
@@ -104,6 +108,7 @@ class RunningAttempt:
         """Begin idle; `simulated`: whether the cameras are, which show whatever there is to see."""
         self.attempt = Attempt()
         self.log: AttemptLog | None = None
+        self.aside: FloatArray | None = None
         self.events = events
         self._thresholds, self._simulated = thresholds, simulated
         self._classifier = Classifier()
@@ -226,7 +231,7 @@ class RunningAttempt:
         lost_or_found = self._depth.message(seen.pose, late)
         if lost_or_found:
             self.say("depth", lost_or_found, seen.time, {"source": seen.pose.depth_source.value})
-        log.sample(seen.sample(self.attempt.state, inputs))
+        log.sample(self._sample(seen, inputs))
         return ""
 
     def scan(
@@ -318,8 +323,14 @@ class RunningAttempt:
         if self.log is None:
             raise IllegalTransitionError(sentence("no attempt has begun"))
         if seen is not None and seen.time >= (self.attempt.began or 0.0):
-            self.log.sample(seen.sample(self.attempt.state, inputs))
+            self.log.sample(self._sample(seen, inputs))
         return self.log.finish(self.attempt)
+
+    def _sample(self, seen: Observation, inputs: LoopInputs) -> Sample:
+        sample = seen.sample(self.attempt.state, inputs)
+        if self.aside is None:
+            return sample
+        return replace(sample, p_target=read_only(sample.p_target - self.aside))
 
     def say(
         self, kind: str, message: str, now: float, data: dict[str, object] | None = None

@@ -18,6 +18,7 @@ from app.core.bend import Bend
 from app.core.events import Event
 from app.imaging.field import TissueField
 from app.planning.placement import PlacedPlan
+from app.session.ablation import AblationState
 from app.session.errors import ProcedureNotPossibleError
 from app.session.needle import FROM_CAMERAS
 from app.session.needle_now import NeedleNow
@@ -30,6 +31,7 @@ from app.session.procedure import (
     perform,
 )
 from app.session.scripted_answers import WATCHED_S, ScriptedPatient
+from app.simulation.electrode_script import ElectrodePhase
 from app.simulation.procedure_script import StopPhase
 
 if TYPE_CHECKING:
@@ -60,12 +62,14 @@ class ScriptedSteps:
 
     Attributes:
         part: what the exercise asks for.
+        ablation: how an attempt begins with its electrodes; None without.
         phase: of the script, as it was looked at last.
     """
 
     part: ProcedurePart
+    ablation: AblationState | None = None
     phase: float = 0.0
-    _left: list[tuple[Step, float]] = field(default_factory=list)
+    _left: list[tuple[Step, int, float]] = field(default_factory=list)
     _next: float = 0.0
 
     @property
@@ -80,20 +84,38 @@ class ScriptedSteps:
             self._next = now + PACE
         if not self._left or now < self._next:
             return
-        step, notch_deg = self._left.pop(0)
+        step, setting, notch_deg = self._left.pop(0)
         self._next = now + PACE
         with suppress(ProcedureNotPossibleError):
-            perform(step, 0, notch_deg)
+            perform(step, setting, notch_deg)
 
-    def _of(self, phase: float) -> list[tuple[Step, float]]:
+    def _of(self, phase: float) -> list[tuple[Step, int, float]]:
         if phase == StopPhase.INJECT:
-            return [(Step.INJECT, 0.0)]
+            return [(Step.INJECT, 0, 0.0)]
         if phase == StopPhase.CHANGE:
-            return [(Step.TAKE_NEEDLE, 0.0)]
+            return [(Step.TAKE_NEEDLE, 0, 0.0)]
+        if phase == ElectrodePhase.PLACE:
+            return [(Step.PLACE_ELECTRODE, 0, 0.0)]
+        if phase == ElectrodePhase.ABLATE and self.ablation is not None:
+            return [(Step.ABLATE, self.ablation.planned_row, 0.0)]
         if phase == StopPhase.SAMPLE and self.part.biopsy is not None:
             count = min(SAMPLES, self.part.biopsy.most_samples)
-            return [(step, 180.0 * (n % 2)) for n in range(count) for step in OF_A_SAMPLE]
+            return [(step, 0, 180.0 * (n % 2)) for n in range(count) for step in OF_A_SAMPLE]
         return []
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StepsDone:
+    """What came of the steps of an attempt that ran without a trainer.
+
+    Attributes:
+        events: as they would be in the record.
+        aside: from the plan's target to the one at hand at each sample [m], shape (n, 3); None
+            where that is the same throughout.
+    """
+
+    events: tuple[Event, ...]
+    aside: FloatArray | None
 
 
 def steps_of_rows(
@@ -102,8 +124,9 @@ def steps_of_rows(
     phases: FloatArray,
     placed: PlacedPlan,
     field: TissueField | None,
+    ablation: AblationState | None = None,
     patient: ScriptedPatient | None = None,
-) -> tuple[Event, ...]:
+) -> StepsDone:
     """Do the steps of a script at the samples of an attempt that ran without a trainer.
 
     Args:
@@ -113,11 +136,16 @@ def steps_of_rows(
         placed: the plan.
         field: of the patient's tissue.
         patient: complications and who answers them; None where none can happen.
+        ablation: how it begins with electrodes; None without.
     """
-    state, steps, events = ProcedureState.at_begin(part), ScriptedSteps(part), list[Event]()
+    state, events = ProcedureState.at_begin(part, ablation=ablation), list[Event]()
+    steps = ScriptedSteps(part, ablation)
+    aside = np.zeros((len(phases), 3))
     seen = np.isin(samples.depth_source, FROM_CAMERAS) & samples.valid
     events.append(Event(float(samples.time[0]), KIND, state.words, begin_data(state)))
     for row, phase in enumerate(phases.tolist()):
+        if state.ablation is not None:
+            aside[row] = state.ablation.aim.p_target - placed.p_target
         if patient is None and phase == steps.phase and not steps.waits:
             continue
         bend = None if samples.bend is None else Bend.of_numbers(samples.bend[row])
@@ -126,7 +154,7 @@ def steps_of_rows(
             samples.tip[row],
             axis if bend is None else axis + bend.slope_at(depth),
             depth,
-            samples.target[row],
+            samples.target[row] + aside[row],
             bool(seen[row]),
         )
         time = float(samples.time[row])
@@ -145,4 +173,4 @@ def steps_of_rows(
             is_outer = state.tool is not Tool.ANAESTHETIC
             events.extend(patient.look(needle, is_outer, time))
         steps.look(phase, time, act)
-    return tuple(events)
+    return StepsDone(tuple(events), None if ablation is None else aside)

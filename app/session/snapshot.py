@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import hypot, isfinite
 from typing import TYPE_CHECKING, Final
@@ -18,13 +18,14 @@ from app.device.readiness import ForceClearance
 from app.device.state import DeviceState
 from app.planning.off_path import Offset
 from app.planning.placement import PlacedPlan
+from app.session.ablation import AblationState
 from app.session.complications import ComplicationsState
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
 from app.session.procedure import ProcedureState, Tool
 from app.session.recorder import RecordingStatus
-from app.session.touching import TouchState
+from app.session.touching import TargetMarks, TouchState
 from app.session.transitions import PauseCause
 from app.tracking.fix import FixStatus
 
@@ -120,13 +121,32 @@ class Snapshot:
     pause: PauseCause | None = None
     simulated: bool = False
 
+    @property
+    def aim(self) -> PlacedPlan | None:
+        """Return the path to the target at hand, where there are several; else None."""
+        if self.touch is not None:
+            return self.touch.aim
+        electrodes = None if self.procedure is None else self.procedure.ablation
+        return None if electrodes is None else electrodes.aim
+
+    @property
+    def target_marks(self) -> TargetMarks | None:
+        """Return the targets as they are drawn, where there are several; else None."""
+        if self.touch is not None:
+            return self.touch.marks
+        electrodes = None if self.procedure is None else self.procedure.ablation
+        if electrodes is None:
+            return None
+        points = np.array([plan.plan.target_mm for plan in electrodes.plans])
+        return TargetMarks(points, len(electrodes.electrodes))
+
     def at_rest(self, placed: PlacedPlan) -> PlacedPlan:
         """Return the plan whose target is the present one where it rests.
 
         Args:
             placed: of the run.
         """
-        return placed if self.touch is None else self.touch.aim
+        return self.aim or placed
 
 
 def excursion(snapshot: Snapshot) -> float | None:
@@ -386,6 +406,8 @@ class NextSteps:
             return step
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
         own = NextStep(StepKind.PROCEDURE, procedure=state, inside=inside)
+        if state.ablation is not None and state.tool is Tool.ELECTRODE:
+            return _in_ablation(step, own, state.ablation)
         if state.tool is Tool.ANAESTHETIC:
             aims = step.kind in (StepKind.TILT, StepKind.LOOK, StepKind.SCAN) and not inside
             return step if aims and not state.deposits else own
@@ -440,3 +462,16 @@ class NextSteps:
         ]
         parts.sort(reverse=True)
         return parts[0][1] + (parts[1][1] if parts[1][0] > SECOND_SIDE * parts[0][0] else "")
+
+
+def _in_ablation(step: NextStep, own: NextStep, ablation: AblationState) -> NextStep:
+    """Say what is next with electrodes: leave one, draw back for the next, ablate, end."""
+    if ablation.reached is not None:
+        return NextStep(StepKind.FINISH)
+    if ablation.all_placed:
+        return own
+    if own.inside and step.kind in (StepKind.HOLD, StepKind.FINISH, StepKind.LOOK):
+        return own
+    if own.inside and ablation.electrodes and step.kind is StepKind.TILT:
+        return replace(own, inside=False)  # it still lies beside the electrode that was left
+    return step

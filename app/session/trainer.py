@@ -8,6 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING, Final
 
 from app.core import state_vector as sv
+from app.core.arrays import read_only
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
@@ -21,6 +22,7 @@ from app.imaging.field import TissueField
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.scoring.complications.answers import Reaction
+from app.session.ablation import AblationState
 from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
 from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
@@ -148,6 +150,7 @@ class Trainer:
         self._clock = clock or SystemClock()
         self._advance = advance
         self._risks, self._tissues = risks, tissues
+        self._ablation = AblationState.of(exercise.procedure, placed, tissues)
         self._inputs = LoopInputs(loop.inbox)
         self._arming = Arming(self._inputs, held_arming, clearance)
         self._sources = RobotAndCameras(loop, tracker, self._inputs, trust)
@@ -300,9 +303,10 @@ class Trainer:
                 self._running.say(TASK, words, now, data)
             if exercise_part := self._exercise.procedure:
                 self._procedure = ProcedureState.at_begin(
-                    exercise_part, self._placed.plan, self._tissues
+                    exercise_part, self._placed.plan, self._tissues, self._ablation
                 )
-                self._scripted = ScriptedSteps(exercise_part)
+                self._scripted = ScriptedSteps(exercise_part, self._ablation)
+                self._take_aim()
                 data = begin_data(self._procedure)
                 self._running.say(PROCEDURE, self._procedure.words, now, data)
             self._begin_complications(header, now)
@@ -357,7 +361,8 @@ class Trainer:
 
         Args:
             step: what is done.
-            throw: which of the biopsy gun's settings, for `Step.FIRE`.
+            throw: which of the biopsy gun's settings, for `Step.FIRE`; which row of the
+                generator's table, for `Step.ABLATE`.
             notch_deg: direction of its notch, for `Step.FIRE`; see `planning.sampling.notch_side`.
 
         Raises:
@@ -373,6 +378,8 @@ class Trainer:
             )
             if happens is not None and step is Step.FIRE:
                 happens.fired(NeedleNow.of(seen))
+            if step is Step.PLACE_ELECTRODE:
+                self._take_aim()
             return self._procedure
 
     def notice(self) -> None:
@@ -384,7 +391,7 @@ class Trainer:
         self._respond(None)
 
     def answer(self, answer: Reaction) -> None:
-        """Reaction a complication; one that is not there is told, and recorded.
+        """Answer a complication; one that is not there is told, and recorded.
 
         Raises:
             ProcedureNotPossibleError: if no attempt runs in which anything can happen.
@@ -621,8 +628,9 @@ class Trainer:
         with self.resting.awake(), self._lock:
             self._running.require_idle("the plan cannot change")
             self._touching = self._to_touch(placed)
-            self._placed = placed
             self._case = ComplicationCase.of(self._exercise, placed, self._tissues)
+            self._ablation = AblationState.of(self._exercise.procedure, placed, self._tissues)
+            self._placed, self._procedure = placed, None
             self._take_aim()
 
     def on_fix(self, fix: NeedleFix) -> None:
@@ -646,9 +654,14 @@ class Trainer:
         Everybody who asks how far the needle is off the path or from the target, the loop's force
         laws among them, asks about this one.
         """
-        return self._placed if self._touching is None else self._touching.state.aim
+        if self._touching is not None:
+            return self._touching.state.aim
+        electrodes = None if self._procedure is None else self._procedure.ablation
+        return self._placed if electrodes is None else electrodes.aim
 
     def _take_aim(self) -> None:
+        if self._ablation is not None:
+            self._running.aside = read_only(self._aim.p_target - self._placed.p_target)
         self._inputs.path(self._aim.axis, self._aim.p_target)
         self._sources.aim(self._aim)
 

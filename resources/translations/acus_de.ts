@@ -2848,6 +2848,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation>procedure: was ein Schritt trifft, wird im Patienten nachgesehen: verwenden Sie tissue: field</translation>
         </message>
         <message>
+            <source>procedure: electrodes lie about a path that the file names: give plan entry_mm and target_mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>procedure: a tool that touches targets takes no steps</source>
             <translation>procedure: ein Werkzeug, das Ziele berührt, kennt keine Schritte</translation>
         </message>
@@ -5409,7 +5413,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>the attempt never got that far</source>
-            <translation type="unfinished">so weit kam der Versuch nicht</translation>
+            <translation>so weit kam der Versuch nie</translation>
         </message>
         <message>
             <source>the depth of the tip was not measured in the body</source>
@@ -11716,7 +11720,7 @@ Anteil</translation>
         </message>
         <message>
             <source>Beside it</source>
-            <translation type="unfinished">Daneben</translation>
+            <translation>Daneben</translation>
         </message>
         <message>
             <source>Aligned</source>
@@ -12925,12 +12929,68 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Patient rechts</translation>
         </message>
         <message>
+            <source>The lesion's surface unrolled: margin in mm; hatched where less than wanted</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>front</source>
             <translation type="unfinished">vorn</translation>
         </message>
         <message>
             <source>back</source>
             <translation type="unfinished">hinten</translation>
+        </message>
+        <message>
+            <source>Ablation: planned against reached</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Margin planned [mm]</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Margin reached [mm]</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Ablation</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Planned</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Reached</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▲ Zones ex vivo: without blood, larger than in a patient</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Least margin (wanted {mm:g} mm)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Lesion ablated</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{share:.1f} %</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Electrode {n}, off its place</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{power:g} W, {minutes:g} min</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Generator</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>head</source>
@@ -14207,6 +14267,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Target {n} of {of}: {way}</source>
             <translation type="unfinished">Ziel {n} von {of}: {way}</translation>
+        </message>
+        <message>
+            <source>Draw the needle out of the skin, turn it to {n}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
@@ -18868,6 +18932,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ein simulierter Arm führt den Plan aus</translation>
         </message>
         <message>
+            <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
             <translation type="unfinished">Gegenspieler: Versuche, die belohnt werden und es nicht dürften</translation>
         </message>
@@ -19032,6 +19100,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Bewegungsökonomie</translation>
         </message>
         <message>
+            <source>Electrode spacing error</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Emphysema on the planned path</source>
             <translation>Emphysem auf dem geplanten Weg</translation>
         </message>
@@ -19144,6 +19216,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Seitliches Gewebe: starre Nadel auf Federn gegenüber Balken auf elastischer Bettung</translation>
         </message>
         <message>
+            <source>Least margin</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Least squares of the band's whole picture</source>
             <translation type="unfinished">Kleinste Quadrate über das ganze Bild des Bands</translation>
         </message>
@@ -19158,6 +19234,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Light before the cameras</source>
             <translation type="unfinished">Licht vor den Kameras</translation>
+        </message>
+        <message>
+            <source>Liver ablation with three needles</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Lung biopsy in six units</source>
@@ -19286,6 +19366,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Rate of the recorded path</source>
             <translation type="unfinished">Rate des aufgezeichneten Wegs</translation>
+        </message>
+        <message>
+            <source>Reached beside the organ</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Read the planning CT, align the needle by the plan and take control scans where you would in the scanner room: choose table position and 3 to 5 slices, press the pedal (S). A tip outside the slices is not seen. There is no other view of the needle and no guidance by the robot. Use few scans. The patient holds the breath.</source>
@@ -19498,6 +19582,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Vessels touched</source>
             <translation type="unfinished">Gefäße berührt</translation>
+        </message>
+        <message>
+            <source>Vessels within 3 mm</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Views of a board that calibrate a camera</source>
@@ -20227,6 +20315,31 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>    {source}</source>
             <translation>    {source}</translation>
+        </message>
+        <message>
+            <source>
+  ablates with {electrodes} electrodes, one after another through one entry, {power:g} W for {minutes:g} min</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>generator</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>source</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{margin:.1f} mm planned of {wanted:g} wanted, {share:.1f} % of the lesion</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>margin</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{vessel} lies within 3 mm of the zone: what it cools is not reckoned</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -22965,6 +23078,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Weder Pneumothorax noch Blutung kann eintreten: complications weglassen</translation>
         </message>
         <message>
+            <source>procedure: samples and ablation are two exercises: leave one out</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>procedure names no step; there are {names}</source>
             <translation>procedure nennt keinen Schritt; es gibt {names}</translation>
         </message>
@@ -22989,8 +23106,32 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>das Ziel liegt in {tissue}: dort hat niemand eine Läsion markiert, so dass keine Probe beurteilt werden kann; markieren Sie sie als Struktur der Art Ziel</translation>
         </message>
         <message>
+            <source>{power:g} W for {minutes:g} min stands in the table twice: leave one out</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{power:g} W for {minutes:g} min: a zone {long_mm:g} mm long cannot reach {ahead:g} mm ahead of the tip</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title}: ex vivo, {tissue}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{title}: in vivo, {tissue}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{power:g} W for {minutes:g} min is not in the generator's table; there are {all}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>the needle has no direction</source>
             <translation>die Nadel hat keine Richtung</translation>
+        </message>
+        <message>
+            <source>no generator's table is called {name!r}; there are {names}, or give the path of a .yaml file</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>no local anaesthetic was given</source>
@@ -23007,6 +23148,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>neither pleura nor capsule was crossed</source>
             <translation>weder Pleura noch Kapsel wurde durchquert</translation>
+        </message>
+        <message>
+            <source>nothing was ablated</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>a step of the procedure at {time} s: a number is not finite</source>
@@ -23049,6 +23194,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Biopsiegerät heraus: der Ansatz ist offen</translation>
         </message>
         <message>
+            <source>electrode left in place</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the generator has ablated</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>needle for local anaesthetic</source>
             <translation>Nadel für das Lokalanästhetikum</translation>
         </message>
@@ -23067,6 +23220,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>outer needle with the biopsy gun, fired</source>
             <translation>Außennadel mit ausgelöstem Biopsiegerät</translation>
+        </message>
+        <message>
+            <source>electrode</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>this exercise ablates nothing</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>this exercise takes no samples</source>
@@ -23099,6 +23260,30 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>nothing tells which tissue lies where: use tissue: field in the exercise</source>
             <translation>nichts sagt, welches Gewebe wo liegt: verwenden Sie tissue: field in der Übung</translation>
+        </message>
+        <message>
+            <source>the lesion was ablated already: the attempt can be ended</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>all {count} electrodes are in place</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{count} of {of} electrodes are in place: place the others first</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>electrode {electrode} is {apart:.1f} mm from here: two at one place ablate one zone; draw back and go at least {least:g} mm beside it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>row {row} of the generator's table: there are 0 to {most}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>electrode {electrode} of {of} left in place</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>setting {setting} of the gun: there are 0 to {most}</source>
@@ -23149,12 +23334,60 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Die Kerbe fasst {notch} mm und endet {tip} mm vor der Nadel</translation>
         </message>
         <message>
+            <source>Power and time of the generator</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{power} W, {minutes} min: {long} × {short} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Held: {tool}</source>
             <translation>In der Hand: {tool}</translation>
         </message>
         <message>
+            <source>Ablated</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>All {n} electrodes are in place</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Electrode {n} of {of}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Take the electrode (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Leave electrode {n} here (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Start the generator (J)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Next step (J)</source>
             <translation>Nächster Schritt (J)</translation>
+        </message>
+        <message>
+            <source>Electrode {n}: {mm:.1f} mm from its place</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▲ {vessel} {mm:.1f} mm from the zone: it may be cooled there, which is not reckoned</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✖ the zone reaches {tissue}: {ml:.1f} ml of it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{mark} {title}: least margin {mm:.1f} mm of {wanted:g}, lesion {share:.1f} %</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
@@ -23407,6 +23640,38 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Patient</source>
             <translation>Patient</translation>
+        </message>
+        <message>
+            <source>electrodes {one} and {other} are at one place, {apart:.1f} mm apart: lay them at least {least:g} mm apart, or leave one out</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>ablation: {error}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>ablation: electrode {electrode}: {error}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>an ablated zone of {long:g} × {short:g} mm: both must be above 0</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>an ablation of the record is none: {numbers}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>least {mm:.1f} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>

@@ -33,6 +33,7 @@ from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.debrief.card import DebriefCard, drill_title
 from app.views.debrief.curves import CurvesView
+from app.views.debrief.margin_map import AblationReview
 from app.views.debrief.published import PublishedOdds
 from app.views.debrief.remarks import RemarkActions, said_words
 from app.views.debrief.replay import (
@@ -293,6 +294,7 @@ class DebriefPage(QWidget):
         self.details = QPushButton(tr("Details"), self)
         self.details.setCheckable(True)
         self.scans = ScanList(self)
+        self.ablation = AblationReview(self)
         self.replayer = Replayer(self)
         self.views, self.curves = ReplayViews(self), CurvesView(self)
         self.bar = ReplayBar(self.replayer, self)
@@ -334,6 +336,7 @@ class DebriefPage(QWidget):
         self.card.offer(None)
         self.table.show_score(review.score)
         self.scans.show_review(review)
+        self.ablation.show_ablation(review.ablation)
         self.curves.show_review(review)
         self.show_proposal(None)
         self._begin_replay(review)
@@ -564,6 +567,7 @@ class DebriefPage(QWidget):
         column.addWidget(self.card)
         for widget in (self.comment, self._problems, self.proposal, self.conditions, self.fold):
             column.addWidget(widget)
+        column.addWidget(self.ablation)
         column.addWidget(self._folded())
         column.addWidget(self.scans)
         column.addStretch(1)

@@ -54,6 +54,7 @@ from app.views.slices.panes import PaneId
 from app.views.slices.plane import SlicePlane
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
+from app.views.slices.zones import ZonesLayer
 
 TICK_MS: Final = 33
 """The replay moves on this often."""
@@ -457,6 +458,7 @@ class ReplayViews(QWidget):
         self.panes = tuple(SlicePane(self.viewing, pane, self) for pane in ids)
         self.ghosts = tuple(GhostLayer(pane.canvas) for pane in self.panes)
         self.met = tuple(MetLayer(pane.canvas) for pane in self.panes)
+        self.zones = tuple(ZonesLayer(pane.canvas) for pane in self.panes)
         self.met_scene: MetScene | None = None
         self.scene: SceneView | None = None
         self.path = PathView(self)
@@ -502,6 +504,8 @@ class ReplayViews(QWidget):
         self.set_ghost(lambda _: None, "")
         if review is not None:
             self.path.show_review(review)
+            for layer in self.zones:
+                layer.set_shown(review.ablation)
 
     def show_ct(self, volume: Volume) -> None:
         """Show the CT that the attempt was made on, with its plan."""

@@ -31,6 +31,7 @@ from app.session.pad.view import rings_of
 from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
+from app.views.exercise.ablation_view import AblationView
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.runs import Runs
@@ -201,6 +202,7 @@ class Conductor(QObject):
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
         self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
+        self._ablation = AblationView(workspace)
         self.scans = ScanSource(self.controller, workspace, lambda: self.patient, self)
         self.controller.rester.seen = self._is_seen
         self._connect()
@@ -556,12 +558,14 @@ class Conductor(QObject):
     def _attach(self, run: ExerciseRun) -> None:
         self._needle.forget()
         self._motion.hide()
+        self._ablation.hide()
         self.controller.attach(run)
         self._show_plan()
 
     def _moved(self, run: ExerciseRun) -> None:
         self._needle.forget()
         self._motion.hide()
+        self._ablation.hide()
         self.controller.replan(run)
         self._begin_steps()
 
@@ -569,6 +573,7 @@ class Conductor(QObject):
         self.controller.detach()
         self._needle.hide()
         self._motion.hide()
+        self._ablation.hide()
         self._show_plan()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -579,6 +584,7 @@ class Conductor(QObject):
         self._editor_lock(snapshot)
         self._needle.show(run, snapshot, self.controller.is_absent, self._bare)
         self._motion.show(run, snapshot)
+        self._ablation.show(snapshot)
 
     def _editor_lock(self, snapshot: Snapshot) -> None:
         running = snapshot.state in RUNNING

@@ -29,6 +29,7 @@ from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
 from app.session.trainer import Trainer
 from app.session.transitions import PauseCause
+from app.views.exercise.ablation_panel import of_electrodes
 from app.views.exercise.axial_gauge import AxialGauge, axial_force, bone_crossed_mm
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.enable_switch import enabling
@@ -169,8 +170,10 @@ class ExerciseDisplay:
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
         acts = commands and snapshot.state not in (State.WITHDRAWING, State.PAUSED)
-        views.panel.procedure.show_procedure(snapshot.procedure, acts, inside)
         views.panel.patient.show_patient(snapshot.complications, commands)
+        electrodes, other = of_electrodes(snapshot.procedure)
+        views.panel.procedure.show_procedure(other, acts, inside)
+        views.panel.ablation.show_ablation(electrodes, acts, inside)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, snapshot.ready, hidden
@@ -182,8 +185,8 @@ class ExerciseDisplay:
 
     def _show_pad(self, run: ExerciseRun, snapshot: Snapshot) -> None:
         bullseye = self._views.bullseye
-        if snapshot.touch is not None and snapshot.touch.aim is not self._aimed:
-            self._aimed = snapshot.touch.aim
+        if snapshot.aim is not None and snapshot.aim is not self._aimed:
+            self._aimed = snapshot.aim
             bullseye.retarget(run.scene(self._aimed))
         view = needle_line(snapshot)
         if view is not None:
@@ -646,6 +649,7 @@ class ExerciseController(QObject):
         panel.procedure.asked.connect(self.perform)
         panel.patient.noticed.connect(self.notice)
         panel.patient.answered.connect(self.answer)
+        panel.ablation.asked.connect(self.perform)
         self._views.bullseye.pad.rolled.connect(self.roll)
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)

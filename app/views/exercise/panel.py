@@ -27,6 +27,7 @@ from app.planning.plan import Plan
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import Handle
 from app.session.snapshot import BreathHold, Snapshot
+from app.views.exercise.ablation_panel import AblationPanel
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.complication_panel import ComplicationPanel
@@ -372,8 +373,8 @@ class AttemptTools(QWidget):
     """What is pressed and answered in an attempt: beside the rest of the panel, or in the rail.
 
     Attributes:
-        procedure, patient, buttons, withdrawal, enable, breath, bevel, touch, scan: what stands
-            there.
+        procedure, patient, ablation, buttons, withdrawal, enable, breath, bevel, touch, scan: what
+            stands there.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -387,6 +388,7 @@ class AttemptTools(QWidget):
         self.touch = TouchNote(self)
         self.procedure = ProcedurePanel(self)
         self.patient = ComplicationPanel(self)
+        self.ablation = AblationPanel(self)
         self.scan = ScanPanel(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -395,6 +397,7 @@ class AttemptTools(QWidget):
             self.withdrawal,
             self.procedure,
             self.patient,
+            self.ablation,
             self.buttons,
             self.enable,
             self.breath,
@@ -454,8 +457,8 @@ class ExercisePanel(QWidget):
         tools = self.tools
         self.buttons, self.withdrawal, self.enable = tools.buttons, tools.withdrawal, tools.enable
         self.breath, self.bevel, self.touch = tools.breath, tools.bevel, tools.touch
-        self.procedure, self.scan = tools.procedure, tools.scan
-        self.patient = tools.patient
+        self.procedure, self.patient = tools.procedure, tools.patient
+        self.scan, self.ablation = tools.scan, tools.ablation
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -492,6 +495,7 @@ class ExercisePanel(QWidget):
         self.breath.listen(page)
         self.procedure.listen(page)
         self.patient.listen(page)
+        self.ablation.listen(page)
 
     def set_exercises(
         self, exercises: Sequence[tuple[str, str]], chosen: str | None = None
@@ -601,6 +605,7 @@ class ExercisePanel(QWidget):
         self.touch.hide()
         self.procedure.show_procedure(None, False)
         self.patient.show_patient(None, False)
+        self.ablation.show_ablation(None, False)
         self.energy.show_energy(None)
 
     def set_waiting(self, reason: str) -> None:

@@ -169,6 +169,12 @@ def procedure_words(state: ProcedureState, inside: bool) -> str:
         state: how the attempt stands with them.
         inside: whether the tip is in the body.
     """
+    if state.ablation is not None and state.tool is Tool.ELECTRODE:
+        if state.ablation.all_placed:
+            return tr("Start the generator (J)")
+        if not inside:
+            return tr("Draw the needle out of the skin, turn it to {n}", n=state.ablation.number)
+        return tr("Leave electrode {n} here (J)", n=state.ablation.number)
     if state.tool is Tool.ANAESTHETIC and state.deposits:
         if inside:
             return tr("Draw the needle out, or give more (J)")

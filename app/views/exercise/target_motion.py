@@ -37,7 +37,7 @@ class TargetMotion:
 
     def show(self, run: ExerciseRun, snapshot: Snapshot) -> None:
         """Draw the target of a moment, and all of them where several are to be touched."""
-        marks = None if snapshot.touch is None or not run.shown.live else snapshot.touch.marks
+        marks = snapshot.target_marks if run.shown.live else None
         if marks is None or not marks.same(self._marks):
             self._mark(marks)
         if not run.shown.live or not (snapshot.p_target != run.placed.p_target).any():
