@@ -12,7 +12,7 @@ displacement beside where they are felt.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -24,7 +24,7 @@ from app.imaging.field import FieldError, TissueField, TissueKind
 from app.imaging.interpolation import interpolate
 from app.imaging.volume import Volume
 
-MOVING: Final = (
+MOVING = (
     TissueKind.ORGAN,
     TissueKind.VESSEL,
     TissueKind.GUT,
@@ -33,32 +33,32 @@ MOVING: Final = (
 )
 """What goes along with breathing."""
 
-RIBS: Final = 0.1
+RIBS = 0.1
 """Share of the ribs in front, an estimate; none at the spine."""
 
-AT_SPINE: Final = 0.5
-LIMITS: Final = (0.5, 1.2)
+AT_SPINE = 0.5
+LIMITS = (0.5, 1.2)
 """Share at the spine, and the least and most of all organs."""
 
-INFLATED: Final = 2.0
+INFLATED = 2.0
 """The lung's share at most, below a target in it."""
 
-RAMP_MM: Final = 6.0
+RAMP_MM = 6.0
 """So near to the wall an organ is held back."""
 
-GAP_MM: Final = 15.0
+GAP_MM = 15.0
 """What lies between organs, with so much room at most, goes along."""
 
-SOFT_MM: Final = 4.0
+SOFT_MM = 4.0
 """Deviation of the bell by which shares are smoothed."""
 
-SHALLOW_MM: Final = 30.0
+SHALLOW_MM = 30.0
 """Nearer to the spine, or in a lung no higher, place makes no difference."""
 
-SPACING_MM: Final = 3.0
+SPACING_MM = 3.0
 """Of the grid on which shares are given."""
 
-_LEAST: Final = 1e-3
+_LEAST = 1e-3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,7 +126,7 @@ def shares_of(field: TissueField, target_mm: FloatArray) -> BreathShares:
     held = float(_value(away, field.inverse_mm, target_mm))
     ramp = max(1.0, min(RAMP_MM, held))  # a target near the wall goes along all the same
 
-    def soft(values: FloatArray) -> NDArray[np.float32]:
+    def soft(values: NDArray[Any]) -> NDArray[np.float32]:
         smooth = ndimage.gaussian_filter(values.astype(np.float32), SOFT_MM / spacing)
         return read_only(np.asarray(smooth, np.float32))
 
@@ -146,7 +146,7 @@ def _closed(mask: NDArray[np.bool_], spacing: FloatArray) -> NDArray[np.bool_]:
 
 Target = tuple[float, float, float]
 
-_MADE: Final[WeakKeyDictionary[Volume, tuple[Target, BreathShares]]] = WeakKeyDictionary()
+_MADE: WeakKeyDictionary[Volume, tuple[Target, BreathShares]] = WeakKeyDictionary()
 """Of each CT that is still open, what was asked for last."""
 
 

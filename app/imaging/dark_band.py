@@ -9,16 +9,15 @@ sum goes as ln(1 + L / r) times the height of the piece. So a thin lamina dz of 
     K (dz / T) ln(1 + L / r) / (1 + r / R),   R = F L / (L + G),
 
 T being the slice's thickness. The lamina cuts a needle that lies in the slice along all of its
-length, and one that leaves it obliquely in a short ellipse: the sum over laminas is strong and long
-beyond a tip that lies in the slice, weaker and shorter where a shaft leaves it. K, F, G and the shape
-across are fitted to a small scanner of its own (tests/imaging/metal_projector.py: steel of 1.27 mm
-in 300 mm of water, 120 kV, rows of 1.25 mm, a slice of 5 mm); another scanner has others.
+length, and one that leaves it obliquely in a short ellipse: their sum is strong and long beyond a
+tip that lies in the slice, weaker and shorter where a shaft leaves it. K, F, G and the
+shape across are fitted to a small scanner of its own (tests/imaging/metal_projector.py: steel of
+1.27 mm in 300 mm of water, 120 kV, rows of 1.25 mm, a slice of 5 mm); another one has others.
 """
 
 from __future__ import annotations
 
 from math import ceil
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,32 +25,32 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.imaging.scan_order import ScanNeedle
 
-DEPTH_HU: Final = 1100.0
+DEPTH_HU = 1100.0
 """K: of a lamina as thick as the slice."""
 
-FADES_MM: Final = 60.0
-SHORT_MM: Final = 40.0
+FADES_MM = 60.0
+SHORT_MM = 40.0
 """F and G: the band fades by half more over R, which is shorter for a short piece."""
 
-NEAREST_MM: Final = 1.0
+NEAREST_MM = 1.0
 """No nearer to the end does the band grow."""
 
-LAMINA_MM: Final = 0.2
+LAMINA_MM = 0.2
 """Thickness of a lamina, at most."""
 
-SIDES: Final = 0.045
-SIDES_MM: Final = 15.0
+SIDES = 0.045
+SIDES_MM = 15.0
 """Share and width of the bright sides."""
 
-CORE_MM: Final = 0.3
-SPREADS: Final = 3.0
+CORE_MM = 0.3
+SPREADS = 3.0
 """Half width of the dark core: this, and the radius times 1 + 3 r / L."""
 
-EMPTY_MM: Final = 15.0
+EMPTY_MM = 15.0
 """Beyond a hollow needle the band is as deep as beyond a solid one only from so far on."""
 
-_LEAST_MM: Final = 0.3
-_FARTHEST_MM: Final = 250.0
+_LEAST_MM = 0.3
+_FARTHEST_MM = 250.0
 
 
 def add_bands(

@@ -85,6 +85,7 @@ class Snapshot:
         procedure: how it stands with the steps of the procedure; None where there are none.
         pause: why the attempt waits; None while it does not.
         simulated: whether robot and cameras both are: nobody can show them a marker.
+        out_of_room: time until the student is back from a control scan [s]; None while he is there.
     """
 
     time: float
@@ -116,6 +117,7 @@ class Snapshot:
     procedure: ProcedureState | None = None
     pause: PauseCause | None = None
     simulated: bool = False
+    out_of_room: float | None = None
 
     def at_rest(self, placed: PlacedPlan) -> PlacedPlan:
         """Return the plan whose target is the present one where it rests.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Final
 
@@ -12,11 +13,13 @@ from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
-from app.core.messages import sentence
+from app.core.messages import sentence, sentence_of
 from app.core.paced_clock import PacedClock
 from app.core.units import MILLIMETRE
+from app.exercises.guidance import ScanChoice
 from app.exercises.locks import Lock
 from app.imaging.field import TissueField
+from app.imaging.scan_look import NeedleEnds
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
@@ -24,14 +27,17 @@ from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
 from app.session.conditions import ARM, POINTERS, TAKEN_OVER, TRAINEE, hand_of
 from app.session.context import RunContext
+from app.session.control_scan import Taking
 from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
+from app.session.out_of_room import KIND as ROOM
+from app.session.out_of_room import Leave, require_inside
 from app.session.procedure import KIND as PROCEDURE
-from app.session.procedure import ProcedureState, Step, begin_data
+from app.session.procedure import ProcedureState, Step, Tool, begin_data
 from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk
@@ -74,8 +80,8 @@ class Trainer:
     thread; `end` and `abort` write files, the others only take a lock for a moment.
 
     Attributes:
-        events: for the window to drain: `state`, `abort`, `scan`, `breath`, `touch`, `recorder`,
-            and the tracker's.
+        events: for the window to drain: `state`, `abort`, `scan`, `room`, `breath`, `touch`,
+            `recorder`, and the tracker's.
         result: of the attempt that finished last; None before the first.
         resting: by which simulated robot and cameras rest while nobody wants them.
     """
@@ -121,6 +127,7 @@ class Trainer:
         self._touching = self._to_touch(placed)
         self._procedure: ProcedureState | None = None
         self._scripted: ScriptedSteps | None = None
+        self._leave: Leave | None = None
         self._dial = exercise.assistance if dial is None else dial
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
@@ -271,6 +278,7 @@ class Trainer:
             out = self._withdrawal.begin(seen.device, seen.pose, now, hand == ARM, begins)
             self._running.begin(log, now, failure, out)
             self._hand.forget()
+            self._leave = None
             self._lost_before = 0.0 if self._paced is None else self._paced.lost
             if self._touching is not None:
                 words, data = begin_words(self._touching.state)
@@ -309,18 +317,64 @@ class Trainer:
         with self._lock:
             self._withdrawal.confirm()
 
-    def scan(self, order: ScanOrder | None = None) -> int:
+    def scan(self, order: ScanOrder | None = None, choice: ScanChoice | None = None) -> int:
         """Take a control scan; returns how many were taken. Without an order it is only counted.
 
+        Who leaves the room for it (`choice.leaves`) is told of the scan by its event, half of
+        `guidance.leave_room_s` later.
+
+        Args:
+            order: which slices.
+            choice: tube current, and whether the student leaves; None for what is proposed, in
+                the room.
+
         Raises:
-            IllegalTransitionError: if no attempt is running.
+            IllegalTransitionError: if no attempt is running, or the student is out of the room.
+            ScanOrderError: for what the exercise does not offer; names what it does.
             ScanNotPossibleError: if there is an order and nobody knows where the needle is.
         """
         guidance = self._exercise.guidance
-        dose = 0.0 if order is None else guidance.dose(order)
         with self._lock:
             now = self._clock.now()
-            return self._running.scan(self._sources.seen, now, order, dose, guidance.streak)
+            require_inside(self._leave, now)
+            if order is None:
+                return self._running.scan(self._sources.seen, now)
+            choice = choice or replace(guidance.choice, leaves=False)
+            guidance.check(order, choice)
+            taking = self._taking(order, choice)
+            if not choice.leaves or guidance.leave_room_s is None:
+                return self._running.scan(self._sources.seen, now, taking)
+            log = self._running.require_scannable()
+            self._leave = Leave(taking, now, guidance.leave_room_s)
+            self._running.say(
+                ROOM, "the student leaves the room", now, {"seconds": self._leave.lasts}
+            )
+            return log.scans
+
+    def _taking(self, order: ScanOrder, choice: ScanChoice) -> Taking:
+        """Return the scan with the needle that the shaft stands for now."""
+        guidance = self._exercise.guidance
+        if guidance.needle_ends is NeedleEnds.PLAIN:
+            return Taking(order, guidance, choice)
+        needle, procedure = self._exercise.needle, self._procedure
+        hollow = procedure is not None and procedure.tool is Tool.OPEN
+        return Taking(order, guidance, choice, needle.gauge, needle.tip, hollow)
+
+    def _be_out(self, now: float) -> None:
+        """Take the scan that somebody left the room for once it is due, and let him come back."""
+        leave = self._leave
+        if leave is None or not self._running.attempt.running:
+            self._leave = None
+            return
+        if not leave.taken and now >= leave.due:
+            self._leave = leave = replace(leave, taken=True)
+            try:
+                self._running.scan(self._sources.seen, now, leave.taking)
+            except AcusError as error:  # nothing was counted; the way was for nothing
+                self._running.say(ROOM, sentence_of(error), now)
+        if now >= leave.back:
+            self._leave = None
+            self._running.say(ROOM, "the student is back at the patient", now)
 
     def perform(self, step: Step, throw: int = 0, notch_deg: float = 0.0) -> ProcedureState:
         """Do a step of the exercise's procedure; returns how it stands then.
@@ -336,6 +390,7 @@ class Trainer:
         self.resting.want()
         with self._lock:
             now = self._clock.now()
+            require_inside(self._leave, now)
             self._procedure = self._running.perform(
                 self._procedure, step, self._sources.seen, now, self._tissues, throw, notch_deg
             )
@@ -349,6 +404,8 @@ class Trainer:
         (`session.still_hand`).
         """
         self.resting.want()
+        if self._leave is not None:
+            return  # nobody is at the needle
         if not self._withdrawal.moves_hand and self._hand.move(x, y, depth, holds):
             self._withdrawal.follow(x, y, depth)
 
@@ -417,7 +474,7 @@ class Trainer:
             NumericalError: if it is not a number.
         """
         self.resting.want()
-        if not self._running.paused:
+        if not self._running.paused and self._leave is None:
             self._inputs.roll(self._inputs.rolled + step)
 
     def assistance(self, value: float) -> None:
@@ -606,11 +663,12 @@ class Trainer:
             )
             self._arming.pause(was_paused, self._running.paused)
             cause, simulated = self._running.pause_cause, self._withdrawal.simulated
-            self._hand.follow(cause, seen.device, seen.pose, simulated)
+            self._hand.follow(cause, seen.device, seen.pose, simulated, self._leave is not None)
             self._touch(seen)
             if self._scripted is not None and seen.device is not None:
                 phase = float(seen.device.row[sv.TRAINEE_PHASE])
                 self._scripted.look(phase, now, self.perform)
+            self._be_out(now)
             if self._breath is not None and (words := self._breath.observe(seen.device, now)):
                 self._running.say("breath", words, now, {"held": self._breath.now.held})
             reason = reason or self._bring_out(seen)
@@ -681,6 +739,7 @@ class Trainer:
             procedure=self._procedure if self._exercise.procedure else None,
             pause=self._running.pause_cause,
             simulated=self._simulated,
+            out_of_room=None if self._leave is None else self._leave.left(now),
         )
         self._latest.publish(snapshot, now)
         return snapshot
@@ -700,6 +759,7 @@ class Trainer:
         self.disarm()
         self._withdrawal.stop()
         self._hand.forget()
+        self._leave = None
         self._inputs.unsteady(0, 0)
         now = self._clock.now()
         if (lost := self.lost) > SLOWED_S:

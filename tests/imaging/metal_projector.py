@@ -6,8 +6,8 @@ floor below which no photon is counted; logarithm, water's own hardening correct
 projection (Ram-Lak with a Hann window; Kak and Slaney 1988, chapter 3). It shares no code with
 `app.imaging.scanned`.
 
-Attenuation: NIST XCOM, mass coefficients of water, iron and aluminium. Spectrum: Kramers' law behind
-8 mm of aluminium, seen by a detector that adds up energy.
+Attenuation: NIST XCOM, mass coefficients of water, iron and aluminium. Spectrum: Kramers' law
+behind 8 mm of aluminium, seen by a detector that adds up energy.
 """
 
 from __future__ import annotations

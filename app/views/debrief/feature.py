@@ -600,12 +600,11 @@ class ScanPictures(QObject):
 
         def make(progress: Progress) -> Volume:
             with turn(progress, "app.imaging.reading", "app.imaging.scanned"):
-                from app.imaging.reading import read_again  # compiled parts
-                from app.imaging.scanned import scan_image
+                from app.imaging.reading import read_again
             ct = volume
             if recipe is not None and recipe != volume.recipe:  # the scan was of a mended one
                 ct = read_again(volume.series, recipe, progress)
-            return scan_image(ct, scan.order, scan.needle, scan.streak, scan.shift_mm)
+            return scan.picture(ct)
 
         run_in_background(
             self,

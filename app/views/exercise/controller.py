@@ -167,6 +167,7 @@ class ExerciseDisplay:
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
         views.panel.procedure.show_procedure(snapshot.procedure, commands, inside)
+        views.panel.show_out(snapshot.out_of_room)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, snapshot.ready, hidden
@@ -536,7 +537,10 @@ class ExerciseController(QObject):
         if run is not None:
             try:
                 live = run.shown.live
-                run.trainer.scan(about_tip(run) if live else self._views.panel.scan.order)
+                if live:
+                    run.trainer.scan(about_tip(run))
+                else:
+                    run.trainer.scan(self._views.panel.scan.order, self._views.panel.scan.choice)
             except AcusError as error:
                 self._fail(translated(error))
                 return

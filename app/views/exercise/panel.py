@@ -66,7 +66,7 @@ class AttemptActions(QWidget):
             tr("Set the force to zero at once; the attempt is saved but not scored"),
         )
         self._keys: list[tuple[QShortcut, QPushButton]] = []
-        self._ends = False
+        self._ends = self._out = False
         self._state: tuple[State | None, bool, str] = (None, False, "")
         self._escape = HoldKey(Qt.Key.Key_Escape, self)
         self._escape.held.connect(self.abort.click)  # a disabled button ignores it
@@ -100,7 +100,7 @@ class AttemptActions(QWidget):
         self.start.setToolTip(literal(reason or _starts()))
         for button, legal in (
             (self.start, can_start and not self._ends),
-            (self.scan, running and state is not State.WITHDRAWING),
+            (self.scan, running and state is not State.WITHDRAWING and not self._out),
             (self.end, running),
             (self.abort, running),
         ):
@@ -112,6 +112,12 @@ class AttemptActions(QWidget):
         """Take no order while an attempt that was ended is being scored and written."""
         self._ends = ends
         self.show_state(*self._state)
+
+    def set_out(self, out: bool) -> None:
+        """Take no order for a scan while the student is out of the room for one."""
+        if out is not self._out:
+            self._out = out
+            self.show_state(*self._state)
 
     def _lay_out(self) -> None:
         self._grid = grid = QGridLayout(self)
@@ -541,6 +547,11 @@ class ExercisePanel(QWidget):
         self.readouts.set_telling(self._telling)
         self._tell_rail()
         self.buttons.set_pedal(guidance is not None)
+
+    def show_out(self, left: float | None) -> None:
+        """Show how long the student is out of the room yet [s]; None while he is in it."""
+        self.scan.choices.show_out(left)
+        self.buttons.set_out(left is not None)
 
     def set_brief(self, brief: bool) -> None:
         """Show what lies between beginning and end of an attempt as one step, or each by itself."""

@@ -189,12 +189,10 @@ class ScanSource(QObject):
             return
         self._busy, self._waiting = True, False
         self._panel.set_busy(True)
-        volume, streak = patient.volume, scan.streak
+        volume = patient.volume
 
         def make(_: Progress) -> Volume:
-            from app.imaging.scanned import scan_image  # compiled parts: beside the window
-
-            return scan_image(volume, scan.order, scan.needle, streak, scan.shift_mm)
+            return scan.picture(volume)
 
         run_in_background(self, make, lambda picture: self._show(picture, scan), self._fail)
 
