@@ -114,7 +114,7 @@ def scan_image(
     picture = np.clip(np.rint(hu), AIR_HU, LAST_HU).astype(np.int16)
     size = (picture.shape[2], picture.shape[1], picture.shape[0])
     spacing = (grid[0, 0], grid[1, 1], grid[2, 2])
-    direction = order.to_gantry.T
+    direction = order.to_gantry.T + 0.0  # no negative zeros
     if order.tilt_deg != 0.0:
         turned = np.eye(4)
         turned[:3, :3] = direction * np.array(spacing)

@@ -332,13 +332,17 @@ def scans_of(events: Iterable[Event]) -> tuple[ControlScan, ...]:
 
 def scan_marks(events: Iterable[Event]) -> tuple[ScanMark, ...]:
     """Every control scan among events as scoring counts it; without an order it has no dose."""
-    found = []
+    marks = []
     for event in events:
         if event.kind == KIND:
-            dose = event.data.get("dose_mgy_cm", 0.0)
-            known = isinstance(dose, int | float) and not isinstance(dose, bool)
+            dose, hand = (_number(event.data.get(key)) for key in ("dose_mgy_cm", "hand_usv"))
             try:
-                found.append(ScanMark(event.time, float(dose) if known else 0.0))  # type: ignore[arg-type]
+                marks.append(ScanMark(event.time, dose or 0.0, hand))
             except TrajectoryError:
-                found.append(ScanMark(0.0))  # of a damaged record; the scan is still counted
-    return tuple(found)
+                marks.append(ScanMark(0.0))  # of a damaged record; the scan is still counted
+    return tuple(marks)
+
+
+def _number(value: object) -> float | None:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return float(value) if is_number else None  # type: ignore[arg-type]
