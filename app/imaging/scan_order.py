@@ -115,7 +115,7 @@ class ScanOrder:
     def to_gantry(self) -> FloatArray:
         """Turn from LPS to the gantry's frame about its pivot, shape (3, 3); its z is across."""
         c, s = cos(radians(self.tilt_deg)), sin(radians(self.tilt_deg))
-        return frozen(np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]]))
+        return frozen(np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
 
     def in_gantry(self, points_mm: FloatArray) -> FloatArray:
         """Return points in the frame in which the slices are straight, LPS [mm], (..., 3)."""
