@@ -59,6 +59,7 @@ SPACING_MM = 3.0
 """Of the grid on which shares are given."""
 
 _LEAST = 1e-3
+_STEPS = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,7 +86,10 @@ class BreathShares:
         resting, share = lps_mm.copy(), self._at(self.ribs, lps_mm)
         inside = self._at(self.inside, lps_mm)
         free = np.flatnonzero(inside > 0.0)
-        share[free] += inside[free] * self._at(self.shares, lps_mm[free] - shift_mm)
+        place, own = lps_mm[free], np.ones(len(free))
+        for _ in range(_STEPS):  # smooth by place: each step is ten times nearer
+            own = self._at(self.shares, place - own[:, None] * shift_mm)
+        share[free] += inside[free] * own
         moved = np.flatnonzero(share > _LEAST)
         resting[moved] -= share[moved, None] * shift_mm
         return resting
@@ -127,12 +131,15 @@ def shares_of(field: TissueField, target_mm: FloatArray) -> BreathShares:
     ramp = max(1.0, min(RAMP_MM, held))  # a target near the wall goes along all the same
 
     def soft(values: NDArray[Any]) -> NDArray[np.float32]:
-        smooth = ndimage.gaussian_filter(values.astype(np.float32), SOFT_MM / spacing)
-        return read_only(np.asarray(smooth, np.float32))
+        return np.asarray(
+            ndimage.gaussian_filter(values.astype(np.float32), SOFT_MM / spacing), np.float32
+        )
 
+    smooth = soft(share * cavity) / np.maximum(soft(cavity), 1e-3)  # nothing of the wall in it
+    smooth = np.where(soft(cavity) > 1e-3, smooth, share)
     walls = read_only(np.clip(away / ramp, 0.0, 1.0).astype(np.float32))
     inverse = frozen(field.inverse_mm, (4, 4))
-    return BreathShares(walls, soft(share), read_only(ribs.astype(np.float32)), inverse)
+    return BreathShares(walls, read_only(smooth), read_only(ribs.astype(np.float32)), inverse)
 
 
 def _closed(mask: NDArray[np.bool_], spacing: FloatArray) -> NDArray[np.bool_]:

@@ -101,7 +101,7 @@ def test_the_order_of_the_bands_is_the_scanners() -> None:
 def test_a_tip_in_the_slice_has_a_longer_band_than_a_shaft_that_leaves_it() -> None:
     def length(values: Floats) -> float:
         """How far beyond the end the band is 100 HU deep [mm]."""
-        return float(np.interp(100.0, -values[::-1], np.array(AWAY, float)[::-1]))
+        return float(np.interp(100.0, -values[:0:-1], np.array(AWAY, float)[:0:-1]))
 
     for figures in (lambda case: np.array(case.shown, float), lambda case: along(ours(case))):
         tip, five, ten = (
