@@ -13,6 +13,7 @@ from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
 from app.core.messages import sentence
 from app.imaging.errors import ScanOrderError
+from app.imaging.volume import Volume
 
 FEWEST, MOST = 3, 5
 """Slices of one control scan."""
@@ -353,3 +354,8 @@ def seen(order: ScanOrder, needle: ScanNeedle) -> Seen:
     half = order.slice_mm / 2
     shown = any(needle.within(z - half, z + half) is not None for z in order.middles_mm)
     return Seen.SHAFT if shown else Seen.NOTHING
+
+
+def middle_of(volume: Volume) -> FloatArray:
+    """Return the middle of a CT, where the gantry's axis ran, LPS [mm], shape (3,)."""
+    return volume.lps_mm((np.array(volume.size) - 1.0) / 2.0)

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.arrays import FloatArray
 from app.exercises.guidance import GuidancePart, ScanChoice
 from app.imaging.scan_order import FEWEST, MOST, ScanOrder, Seen
 from app.imaging.volume import Volume
@@ -76,7 +77,6 @@ class ScanPanel(QWidget):
         if plan == self._plan and guidance == self._guidance:
             return
         self._guidance, self._plan = guidance, plan
-        self._pivot = float(plan.target_mm[1])
         self.choices.set_guidance(guidance)
         middle = 0.5 * float(plan.entry_mm[2] + plan.target_mm[2])
         with QSignalBlocker(self.table), QSignalBlocker(self.slices):
@@ -96,9 +96,14 @@ class ScanPanel(QWidget):
         """What is chosen for it beside its slices."""
         return self.choices.choice
 
-    def set_table(self, centre_mm: float) -> None:
-        """Move the table so that this place along the patient is in the middle [mm]."""
-        self.table.setValue(centre_mm)
+    def go_to(self, place_mm: FloatArray) -> None:
+        """Move the table so that the middle slice passes through a place, LPS [mm], shape (3,)."""
+        lean = np.tan(np.radians(self.choices.tilt_deg))
+        self.table.setValue(float(place_mm[2] + lean * (place_mm[1] - self._pivot)))
+
+    def set_isocentre(self, place_mm: FloatArray) -> None:
+        """Say where on the patient the gantry's axis lies, LPS [mm], shape (3,)."""
+        self._pivot = float(place_mm[1])
 
     def begin(self) -> None:
         """Begin to count anew."""
