@@ -7,15 +7,20 @@ from __future__ import annotations
 
 from typing import Annotated, Final
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from app.core.arrays import FloatArray
 from app.core.configuration import Strict
 from app.core.messages import sentence, sentence_of
+from app.imaging.skin_grid import GridSpec
 from app.planning.errors import PlanError
+from app.planning.placement import Placement
 from app.planning.sampling import Throw
 
 OF_PROCEDURES: Final = {
     "anaesthetic": frozenset({"anaesthetic_gap", "pierced_by_anaesthetic"}),
+    "grid": frozenset({"entry_mark_error"}),
     "biopsy": frozenset({"diagnostic_samples", "lesion_in_sample", "throw_hits", "hub_open_time"}),
 }
 """Metrics that a part of the procedure alone can give."""
@@ -94,16 +99,53 @@ class BiopsyPart(Strict):
         return self.throws[number].throw(0.5 * self.core_mm)
 
 
+class GridPart(Strict):
+    """A grid of metal lines on the skin, by which the student finds and marks the entry.
+
+    Attributes:
+        lines: how many, an odd number: the middle one lies above the target.
+        spacing_mm: from line to line along the skin.
+        length_mm: of the lines, the target's level in their middle.
+    """
+
+    lines: Annotated[int, Field(ge=3, le=31)] = 13
+    spacing_mm: Annotated[float, Field(ge=2.0, le=30.0)] = 10.0
+    length_mm: Annotated[float, Field(ge=20.0, le=300.0)] = 150.0
+
+    @model_validator(mode="after")
+    def _has_a_middle(self) -> GridPart:
+        if self.lines % 2 == 0:
+            raise ValueError(
+                sentence("lines: {lines}: an odd number has a line in the middle", lines=self.lines)
+            )
+        return self
+
+    def spec(self, target_mm: FloatArray, placement: Placement) -> GridSpec:
+        """Return the grid on a patient who lies so, above a target, LPS [mm], shape (3,)."""
+        x, y, z = (float(value) for value in target_mm)
+        up = placement.rotation.T @ np.array([0.0, 0.0, 1.0])
+        length = float(np.hypot(up[0], up[1]))
+        side = (float(up[0]) / length, float(up[1]) / length) if length > 1e-6 else (0.0, -1.0)
+        return GridSpec((x, y, z), side, self.lines, self.spacing_mm, self.length_mm)
+
+
 class ProcedurePart(Strict):
     """What belongs to the intervention; None for each step that the exercise does without.
 
     Attributes:
+        grid: metal lines on the skin, by which the entry is marked.
         anaesthetic: local anaesthetic first, by a needle of its own.
         biopsy: samples through a coaxial needle.
     """
 
+    grid: GridPart | None = None
     anaesthetic: AnaestheticPart | None = None
     biopsy: BiopsyPart | None = None
+
+    @property
+    def has_steps(self) -> bool:
+        """Return whether anything is done during the attempt."""
+        return self.anaesthetic is not None or self.biopsy is not None
 
     @model_validator(mode="after")
     def _asks_for_something(self) -> ProcedurePart:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
+from app.imaging.skin_grid import GridSpec, spec_of
+
 
 class NeedleEnds(StrEnum):
     """How a scan draws the ends of the needle, and the dark bands beyond them."""
@@ -37,6 +39,7 @@ class ScanLook:
         target_mm: of the plan, LPS: it goes along with all of the breath; where layers ask for it.
         noise_hu: standard deviation of what is added to the planning CT's own noise.
         noise_seed: of that noise.
+        grid: of metal on the skin; None for none.
     """
 
     streak: bool = False
@@ -45,6 +48,7 @@ class ScanLook:
     target_mm: tuple[float, float, float] | None = None
     noise_hu: float = 0.0
     noise_seed: int = 0
+    grid: GridSpec | None = None
 
     def document(self) -> dict[str, object]:
         """Return JSON-ready values of what is not as usual; `look_of` reads them back."""
@@ -53,7 +57,7 @@ class ScanLook:
             value = getattr(self, name)
             if value != getattr(usual, name):
                 made[name] = list(value) if isinstance(value, tuple) else value
-        return made
+        return made if self.grid is None else made | {"grid": self.grid.document()}
 
 
 def look_of(streak: bool, document: Mapping[str, Any]) -> ScanLook:
@@ -71,4 +75,5 @@ def look_of(streak: bool, document: Mapping[str, Any]) -> ScanLook:
         None if target is None else (x, y, z),
         float(document.get("noise_hu", 0.0)),
         int(document.get("noise_seed", 0)),
+        None if (grid := document.get("grid")) is None else spec_of(grid),
     )

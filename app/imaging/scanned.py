@@ -29,6 +29,7 @@ from app.imaging.volume import Volume
 if TYPE_CHECKING:
     from app.imaging.breath_layers import BreathShares
     from app.imaging.oblique import Plane
+    from app.imaging.skin_grid import GridSpec
 
 METAL_HU = 12000.0
 """Steel on a scale without an end, by order of magnitude: a shaft that fills a quarter of a voxel
@@ -109,6 +110,8 @@ def scan_image(
         elif look.streak:
             _add_streaks(hu, order, seen, grid)
         _add_metal(hu, order, seen, grid)
+    if look.grid is not None:
+        _add_wires(hu, order, grid, volume, look.grid)
     if look.noise_hu > 0.0:
         _add_noise(hu, look)
     picture = np.clip(np.rint(hu), AIR_HU, LAST_HU).astype(np.int16)
@@ -130,6 +133,24 @@ def scan_image(
         slices=(),
     )
     return Volume(picture, grid, series)
+
+
+def _add_wires(
+    hu: NDArray[np.float32],
+    order: ScanOrder,
+    grid: FloatArray,
+    volume: Volume,
+    spec: GridSpec,
+) -> None:
+    """Draw the lines of a grid on the skin: dots of metal in every slice that they reach."""
+    from app.imaging.skin_grid import grid_on
+
+    corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    ends = volume.lps_mm(corners * (np.array(volume.size) - 1.0))
+    lean = abs(np.sin(np.radians(order.tilt_deg))) * float(np.ptp(ends[:, 1]))
+    low, high = order.range_mm
+    for wire in grid_on(volume, spec).wires(low - lean, high + lean):
+        _add_metal(hu, order, wire.seen_from(order), grid)
 
 
 def _add_noise(hu: NDArray[np.float32], look: ScanLook) -> None:

@@ -66,6 +66,7 @@ class ProcedureMarks:
         needle_from: moment from which the needle of the exercise itself was held [s]; None where it
             was from the beginning.
         met_before: what the needle for local anaesthetic met.
+        entry_error_mm: way along the skin from the planned to the marked entry; None without.
     """
 
     deposits: tuple[Deposit, ...] = ()
@@ -73,6 +74,7 @@ class ProcedureMarks:
     open_s: float = 0.0
     needle_from: float | None = None
     met_before: tuple[Met, ...] = ()
+    entry_error_mm: float | None = None
 
 
 def _check(*numbers: float) -> None:

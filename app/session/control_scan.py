@@ -28,6 +28,7 @@ from app.imaging.scan_order import (
     Seen,
     seen,
 )
+from app.imaging.skin_grid import GridSpec
 from app.imaging.volume import Volume
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import TrajectoryError
@@ -247,6 +248,7 @@ class Taking:
         gauge: of the needle.
         tip: how it is ground.
         hollow: whether its stylet is out.
+        grid: of metal on the skin; None for none.
     """
 
     order: ScanOrder
@@ -255,6 +257,7 @@ class Taking:
     gauge: int = 18
     tip: TipShape = TipShape.SYMMETRIC
     hollow: bool = False
+    grid: GridSpec | None = None
 
     def needle(self, hub_mm: FloatArray, tip_mm: FloatArray, bent: FloatArray | None) -> ScanNeedle:
         """Return the metal: the exercise's own needle where its ends are drawn."""
@@ -318,7 +321,7 @@ def take(
         frozen(moved / MILLIMETRE, (3,), "shift"),
         guidance.dose(taking.order, choice),
         guidance.streak,
-        guidance.look(choice, (x, y, z), number),
+        replace(guidance.look(choice, (x, y, z), number), grid=taking.grid),
         choice,
         guidance.hand_dose(choice),
     )

@@ -40,6 +40,9 @@ KIND: Final = "procedure"
 
 VERSION: Final = 1
 
+MARKED: Final = "mark_entry"
+"""Step of the event that says where the entry was marked, before the needle is touched."""
+
 
 class Tool(StrEnum):
     """What the shaft in the robot stands for."""
@@ -259,9 +262,12 @@ def marks_of(
     needle_from: float | None = None
     open_from: float | None = None
     opened: list[tuple[float, float]] = []
+    error: float | None = None
     for event, step in steps:
         data: dict[str, Any] = dict(event.data)
         with suppress(LookupError, TypeError, ValueError, TrajectoryError):
+            if event.data.get("step") == MARKED:
+                error = float(data["error_mm"])
             if step is Step.INJECT:
                 gap = data["gap_mm"]
                 deposits.append(
@@ -285,7 +291,7 @@ def marks_of(
         needle_from = np.inf  # it was never taken
     before = tuple(one for one in met or () if needle_from is not None and one.time < needle_from)
     return ProcedureMarks(
-        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before
+        tuple(deposits), tuple(taken), _open_time(opened, samples), needle_from, before, error
     )
 
 

@@ -21,6 +21,7 @@ from app.exercises.locks import Lock
 from app.imaging.field import TissueField
 from app.imaging.scan_look import NeedleEnds
 from app.imaging.scan_order import ScanOrder
+from app.planning.entry_mark import EntryMark
 from app.planning.placement import PlacedPlan
 from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
 from app.session.attempt_log import AttemptLog
@@ -37,7 +38,8 @@ from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.out_of_room import KIND as ROOM
 from app.session.out_of_room import Leave, require_inside
 from app.session.procedure import KIND as PROCEDURE
-from app.session.procedure import ProcedureState, Step, Tool, begin_data
+from app.session.procedure import MARKED, ProcedureState, Step, Tool, begin_data
+from app.session.procedure import VERSION as PROCEDURE_VERSION
 from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk
@@ -67,6 +69,9 @@ if TYPE_CHECKING:
 
 TICK_PERIOD: Final = 0.02
 """The trainer looks at everything this often [s]."""
+
+SAME_ENTRY_MM: Final = 1.5
+"""An entry so near to where one was marked is that one, moved onto the skin next to it."""
 
 Advance = Callable[[float], None]
 """Lets simulated parts other than the loop catch up with virtual time [s]."""
@@ -128,6 +133,7 @@ class Trainer:
         self._procedure: ProcedureState | None = None
         self._scripted: ScriptedSteps | None = None
         self._leave: Leave | None = None
+        self._mark: EntryMark | None = None
         self._dial = exercise.assistance if dial is None else dial
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
@@ -288,6 +294,9 @@ class Trainer:
                 self._scripted = ScriptedSteps(exercise_part)
                 data = begin_data(self._procedure)
                 self._running.say(PROCEDURE, self._procedure.words, now, data)
+                if (mark := self._mark_here()) is not None:
+                    data = {"version": PROCEDURE_VERSION, "step": MARKED, **mark.data()}
+                    self._running.say(PROCEDURE, mark.words, now, data)
             self.heartbeat()
             if out is None:
                 self._running.say(WITHDRAWAL, self._withdrawal.words, now)
@@ -353,12 +362,15 @@ class Trainer:
 
     def _taking(self, order: ScanOrder, choice: ScanChoice) -> Taking:
         """Return the scan with the needle that the shaft stands for now."""
-        guidance = self._exercise.guidance
+        guidance, asked, grid = self._exercise.guidance, self._exercise.procedure, None
+        if asked is not None and asked.grid is not None:
+            plan = self._placed.plan
+            grid = asked.grid.spec(plan.target_mm, self._placed.placement)
         if guidance.needle_ends is NeedleEnds.PLAIN:
-            return Taking(order, guidance, choice)
+            return Taking(order, guidance, choice, grid=grid)
         needle, procedure = self._exercise.needle, self._procedure
         hollow = procedure is not None and procedure.tool is Tool.OPEN
-        return Taking(order, guidance, choice, needle.gauge, needle.tip, hollow)
+        return Taking(order, guidance, choice, needle.gauge, needle.tip, hollow, grid)
 
     def _be_out(self, now: float) -> None:
         """Take the scan that somebody left the room for once it is due, and let him come back."""
@@ -375,6 +387,19 @@ class Trainer:
         if now >= leave.back:
             self._leave = None
             self._running.say(ROOM, "the student is back at the patient", now)
+
+    def mark_entry(self, mark: EntryMark | None) -> None:
+        """Take where the entry was marked on the skin; attempts that begin at it say so."""
+        with self._lock:
+            self._mark = mark
+
+    def _mark_here(self) -> EntryMark | None:
+        """Return the mark if the patient lies by it and the exercise has a grid."""
+        mark, asked = self._mark, self._exercise.procedure
+        if mark is None or asked is None or asked.grid is None:
+            return None
+        away = self._placed.plan.entry_mm - mark.marked_mm
+        return mark if float(away @ away) <= SAME_ENTRY_MM**2 else None
 
     def perform(self, step: Step, throw: int = 0, notch_deg: float = 0.0) -> ProcedureState:
         """Do a step of the exercise's procedure; returns how it stands then.

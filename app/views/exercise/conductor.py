@@ -32,6 +32,7 @@ from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
 from app.views.exercise.controller import ExerciseController
+from app.views.exercise.entry_marking import EntryMarking
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.runs import Runs
 from app.views.exercise.scan_source import ScanSource
@@ -202,6 +203,16 @@ class Conductor(QObject):
         self._surfaces = SurfaceExtraction(workspace.scene, self)
         self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
         self.scans = ScanSource(self.controller, workspace, lambda: self.patient, self)
+        self.marking = EntryMarking(
+            workspace.exercise_panel.entry,
+            editor,
+            tuple(workspace.panes),
+            lambda: self.patient,
+            lambda: self.exercise,
+            lambda: workspace.exercise_panel.scan.choices.tilt_deg,
+            self,
+        )
+        workspace.exercise_panel.scan.choices.changed.connect(self.marking.show_words)
         self.controller.rester.seen = self._is_seen
         self._connect()
 
@@ -238,6 +249,8 @@ class Conductor(QObject):
         self.controller.attached.connect(self._workspace.room.end)
         self.patient_changed.connect(self._workspace.scan_view.clear)
         self.scans.failed.connect(self.failed)
+        self.marking.failed.connect(self.failed)
+        self.controller.beginning.connect(self._tell_mark)
 
     @property
     def profile(self) -> DeviceProfile | None:
@@ -524,6 +537,12 @@ class Conductor(QObject):
         robot, cameras = (RobotChoice(), None) if simulated else (self._robot, self._cameras)
         ct = CtFacts.of_volume(volume)
         self.runs.want(RunSetup(self.exercise, placed, ct, robot, cameras, volume, shows))
+
+    def _tell_mark(self) -> None:
+        """Tell the run where the entry was marked, before an attempt begins."""
+        run = self.controller.run
+        if run is not None and self.marking.mark is not None:
+            run.trainer.mark_entry(self.marking.mark)
 
     def why_not_start(self) -> str:
         """Say what keeps an attempt from beginning that does not go by itself; empty if nothing."""

@@ -166,7 +166,10 @@ class ExerciseDisplay:
         views.panel.bevel.show_roll(snapshot.roll, commands)
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
-        views.panel.procedure.show_procedure(snapshot.procedure, commands, inside)
+        steps = snapshot.procedure
+        if steps is not None and not steps.part.has_steps:
+            steps = None
+        views.panel.procedure.show_procedure(steps, commands, inside)
         views.panel.show_out(snapshot.out_of_room)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))

@@ -31,6 +31,7 @@ from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
+from app.views.exercise.entry_marking import EntryMarkPanel
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.procedure_panel import ProcedurePanel
 from app.views.exercise.readouts import AttemptReadouts
@@ -391,11 +392,13 @@ class AttemptTools(QWidget):
         self.touch = TouchNote(self)
         self.procedure = ProcedurePanel(self)
         self.scan = ScanPanel(self)
+        self.entry = EntryMarkPanel(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(theme.SPACING - 2)
         for widget in (
             self.withdrawal,
+            self.entry,
             self.buttons,
             self.enable,
             self.breath,
@@ -456,6 +459,7 @@ class ExercisePanel(QWidget):
         self.buttons, self.withdrawal, self.enable = tools.buttons, tools.withdrawal, tools.enable
         self.breath, self.bevel, self.touch = tools.breath, tools.bevel, tools.touch
         self.procedure, self.scan = tools.procedure, tools.scan
+        self.entry = tools.entry
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
