@@ -80,7 +80,9 @@ def test_a_scan_shows_a_dot_of_metal_on_the_skin_for_each_line(known) -> None:
     wires = np.array([grid.point(GridPlace(60.0, line)) for line in range(1, 12)])
     order_x = np.argsort(dots[:, 0])
     np.testing.assert_allclose(dots[order_x, 0], wires[:, 0], atol=1.5)
-    sizes = ndimage.sum(changed, labels, range(1, 12))[order_x]
+    added = shown.hu[1].astype(float) - plain[1]
+    near = ndimage.grey_dilation(labels, size=(5, 5))
+    sizes = ndimage.sum(added, near, range(1, 12))[order_x]
     assert sizes[4] > sizes[3]  # the fifth is thick
     assert sizes[9] > sizes[8]
 

@@ -116,6 +116,9 @@ class FakeTrainer:
         self.calls.append(("scan",) if order is None else ("scan", order, *chosen))
         return 1
 
+    def mark_entry(self, mark: object) -> None:
+        self.calls.append(("mark_entry", mark))
+
     def arm(self) -> None:
         self.calls.append(("arm",))
 
