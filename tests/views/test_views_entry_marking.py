@@ -62,7 +62,7 @@ def test_an_attempt_is_told_of_the_mark(gridded, settle) -> None:
     panel.mark.click()
     assert settle(lambda: window.conductor.controller.run is not None)
     window.conductor.controller.beginning.emit()
-    ((_, mark),) = window.conductor.controller.run.trainer.told("mark_entry")
+    mark = window.conductor.controller.run.trainer.marked
     assert mark is window.conductor.marking.mark is not None
 
 

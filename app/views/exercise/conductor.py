@@ -603,6 +603,7 @@ class Conductor(QObject):
         running = snapshot.state in RUNNING
         if running != self._editor.locked:
             self._editor.set_locked(running)
+            self.marking.look()
             if not running:
                 self._workspace.room.end()
             self.views_changed.emit()

@@ -56,7 +56,7 @@ class EntryMarkPanel(QWidget):
         self.table, self.offset = QDoubleSpinBox(self), QDoubleSpinBox(self)
         self.line = QSpinBox(self)
         self.mark = QPushButton(tr("Mark the entry"), self)
-        self.words = PlainLabel(self)
+        self.words, self._names = PlainLabel(self), list[PlainLabel]()
         self._prepare()
         self._lay_out()
         self.hide()
@@ -72,6 +72,11 @@ class EntryMarkPanel(QWidget):
             self.table.setValue(round(spec.centre_mm[2]))
             self.offset.setRange(-spec.spacing_mm, spec.spacing_mm)
             self.offset.setValue(0.0)
+
+    def set_locked(self, locked: bool) -> None:
+        """Offer no mark during an attempt; what is said stays."""
+        for widget in (*self._names, self.table, self.line, self.offset, self.mark):
+            widget.setVisible(not locked)
 
     @property
     def place(self) -> GridPlace:
@@ -121,7 +126,8 @@ class EntryMarkPanel(QWidget):
             ),
             1,
         ):
-            grid.addWidget(PlainLabel(name, self), row, 0)
+            self._names.append(PlainLabel(name, self))
+            grid.addWidget(self._names[-1], row, 0)
             grid.addWidget(widget, row, 1)
         grid.addWidget(self.mark, 4, 0, 1, 2)
         grid.addWidget(self.words, 5, 0, 1, 2)
@@ -175,6 +181,7 @@ class EntryMarking(QObject):
     def look(self) -> None:
         """Look at what is planned: an entry that was not marked is the planned one."""
         spec = self._spec()
+        self._panel.set_locked(self._editor.locked)
         known = None if self._grid is None else self._grid.spec
         if spec != known:
             patient = self._patient()

@@ -114,8 +114,12 @@ class AttemptActions(QWidget):
         self._ends = ends
         self.show_state(*self._state)
 
-    def set_out(self, out: bool) -> None:
-        """Take no order for a scan while the student is out of the room for one."""
+    def set_out(self, left: float | None) -> None:
+        """Take no order for a scan while the student is out of the room, but say how long [s]."""
+        out = left is not None
+        words = tr("Control scan (S)") if left is None else tr("Out of the room: {s:.0f} s", s=left)
+        if words != self.scan.text():
+            self.scan.setText(words)
         if out is not self._out:
             self._out = out
             self.show_state(*self._state)
@@ -555,7 +559,7 @@ class ExercisePanel(QWidget):
     def show_out(self, left: float | None) -> None:
         """Show how long the student is out of the room yet [s]; None while he is in it."""
         self.scan.choices.show_out(left)
-        self.buttons.set_out(left is not None)
+        self.buttons.set_out(left)
 
     def set_brief(self, brief: bool) -> None:
         """Show what lies between beginning and end of an attempt as one step, or each by itself."""
