@@ -113,7 +113,7 @@ class GridPlace:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Profile:
+class SkinProfile:
     """The skin across the patient at one table position.
 
     Attributes:
@@ -225,7 +225,7 @@ class SkinGrid:
         centre = np.array([*self.spec.centre_mm[:2], z])
         return frozen(centre + u * self.spec.across + height * self.spec.rising)
 
-    def _profile(self, z: float) -> _Profile:
+    def _profile(self, z: float) -> SkinProfile:
         """Look for the skin from above at one table position.
 
         Raises:
@@ -255,7 +255,7 @@ class SkinGrid:
         return _about_middle(across, height)
 
 
-def _about_middle(across: FloatArray, height: FloatArray) -> _Profile:
+def _about_middle(across: FloatArray, height: FloatArray) -> SkinProfile:
     """Keep the skin that hangs together about the middle line.
 
     Raises:
@@ -274,7 +274,7 @@ def _about_middle(across: FloatArray, height: FloatArray) -> _Profile:
         last += 1
     u, h = across[first : last + 1], height[first : last + 1]
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(u), np.diff(h)))])
-    return _Profile(u, h, along - float(np.interp(0.0, u, along)))
+    return SkinProfile(u, h, along - float(np.interp(0.0, u, along)))
 
 
 _MADE: WeakKeyDictionary[Volume, SkinGrid] = WeakKeyDictionary()

@@ -28,15 +28,13 @@ from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
 from app.session.conditions import ARM, POINTERS, TAKEN_OVER, TRAINEE, hand_of
 from app.session.context import RunContext
-from app.session.control_scan import Taking
+from app.session.control_scan import ROOM, Leave, Taking, require_inside
 from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
-from app.session.out_of_room import KIND as ROOM
-from app.session.out_of_room import Leave, require_inside
 from app.session.procedure import KIND as PROCEDURE
 from app.session.procedure import MARKED, ProcedureState, Step, Tool, begin_data
 from app.session.procedure import VERSION as PROCEDURE_VERSION

@@ -93,7 +93,7 @@ class ScanPanel(QWidget):
 
     @property
     def choice(self) -> ScanChoice:
-        """What is chosen for it beside its slices."""
+        """Return what is chosen for it beside its slices."""
         return self.choices.choice
 
     def go_to(self, place_mm: FloatArray) -> None:
