@@ -234,7 +234,7 @@ _PLAIN_NEEDLE: Final = ScanNeedle(np.zeros(3), np.array([0.0, 0.0, 1.0]))
 
 SEEN_WORDS: Final = {
     Seen.TIP: "shows the tip",
-    Seen.BETWEEN: "shows the shaft, the tip lies in the gap between two slices",
+    Seen.BETWEEN: sentence("shows the shaft, the tip lies in the gap between two slices"),
     Seen.SHAFT: "shows the shaft, the tip lies outside",
     Seen.NOTHING: "does not show the needle",
 }

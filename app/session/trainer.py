@@ -354,7 +354,7 @@ class Trainer:
             log = self._running.require_scannable()
             self._leave = Leave(taking, now, guidance.leave_room_s)
             self._running.say(
-                ROOM, "the student leaves the room", now, {"seconds": self._leave.lasts}
+                ROOM, sentence("the student leaves the room"), now, {"seconds": self._leave.lasts}
             )
             return log.scans
 
@@ -384,7 +384,7 @@ class Trainer:
                 self._running.say(ROOM, sentence_of(error), now)
         if now >= leave.back:
             self._leave = None
-            self._running.say(ROOM, "the student is back at the patient", now)
+            self._running.say(ROOM, sentence("the student is back at the patient"), now)
 
     def mark_entry(self, mark: EntryMark | None) -> None:
         """Take where the entry was marked on the skin; attempts that begin at it say so."""
