@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import atan2, degrees, hypot
+from math import atan2, cos, degrees, hypot, radians, sin
 from typing import Any, Final
 
 import numpy as np
@@ -47,6 +47,20 @@ def needle_angles(plan: Plan, up: tuple[float, float], tilt_deg: float = 0.0) ->
     return NeedleAngles(
         degrees(atan2(across, down)), degrees(atan2(float(way[2]), hypot(across, down)))
     )
+
+
+def direction_of(
+    angles: NeedleAngles, up: tuple[float, float], tilt_deg: float = 0.0
+) -> FloatArray:
+    """Return the direction that is dialled, hub to tip, LPS, unit, shape (3,).
+
+    It is the other way of `needle_angles`.
+    """
+    plane, head = radians(angles.in_plane_deg), radians(angles.cranio_caudal_deg)
+    across, down = np.array([-up[1], up[0], 0.0]), np.array([-up[0], -up[1], 0.0])
+    in_slice = sin(plane) * across + cos(plane) * down
+    way = cos(head) * in_slice + sin(head) * np.array([0.0, 0.0, 1.0])
+    return frozen(ScanOrder(0.0, tilt_deg=tilt_deg).to_gantry.T @ way)
 
 
 def bore_room_mm(order: ScanOrder, isocentre_mm: FloatArray, plan: Plan, needle_mm: float) -> float:

@@ -13671,6 +13671,10 @@ frei wählbar</translation>
             <translation>Einstich anzeichnen</translation>
         </message>
         <message>
+            <source>Point the needle</source>
+            <translation>Nadel richten</translation>
+        </message>
+        <message>
             <source>Table</source>
             <translation type="unfinished">Tisch</translation>
         </message>
@@ -13693,6 +13697,26 @@ frei wählbar</translation>
         <message>
             <source>Makes this place the entry: the patient is placed so that it lies on the fulcrum; how far it is from the entry that you planned is scored</source>
             <translation>Macht diese Stelle zum Einstich: der Patient wird so gelagert, dass sie auf dem Drehpunkt liegt; wie weit sie vom geplanten Einstich entfernt ist, wird bewertet</translation>
+        </message>
+        <message>
+            <source>In the slice</source>
+            <translation>In der Schicht</translation>
+        </message>
+        <message>
+            <source>From straight down, + towards higher numbers</source>
+            <translation>Von senkrecht, + zu höheren Nummern</translation>
+        </message>
+        <message>
+            <source>Out of it</source>
+            <translation>Aus ihr heraus</translation>
+        </message>
+        <message>
+            <source>Cranio-caudal: + towards the head</source>
+            <translation>Kraniokaudal: + zum Kopf</translation>
+        </message>
+        <message>
+            <source>Lets the simulated hand point the needle by these two angles, as by a protractor; a needle in your own hand you turn yourself</source>
+            <translation>Lässt die simulierte Hand die Nadel nach diesen beiden Winkeln richten, wie mit einem Winkelmesser; eine Nadel in der eigenen Hand drehen Sie selbst</translation>
         </message>
         <message>
             <source>Entry on the skin</source>

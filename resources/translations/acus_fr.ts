@@ -13671,6 +13671,10 @@ réglable</translation>
             <translation>Marquer l’entrée</translation>
         </message>
         <message>
+            <source>Point the needle</source>
+            <translation>Orienter l’aiguille</translation>
+        </message>
+        <message>
             <source>Table</source>
             <translation type="unfinished">Table</translation>
         </message>
@@ -13693,6 +13697,26 @@ réglable</translation>
         <message>
             <source>Makes this place the entry: the patient is placed so that it lies on the fulcrum; how far it is from the entry that you planned is scored</source>
             <translation>Fait de cet endroit l’entrée : le patient est placé de sorte qu’il se trouve sur le pivot ; sa distance à l’entrée que vous avez planifiée est notée</translation>
+        </message>
+        <message>
+            <source>In the slice</source>
+            <translation>Dans la coupe</translation>
+        </message>
+        <message>
+            <source>From straight down, + towards higher numbers</source>
+            <translation>Depuis la verticale, + vers les numéros plus grands</translation>
+        </message>
+        <message>
+            <source>Out of it</source>
+            <translation>Hors d’elle</translation>
+        </message>
+        <message>
+            <source>Cranio-caudal: + towards the head</source>
+            <translation>Crânio-caudal : + vers la tête</translation>
+        </message>
+        <message>
+            <source>Lets the simulated hand point the needle by these two angles, as by a protractor; a needle in your own hand you turn yourself</source>
+            <translation>Laisse la main simulée orienter l’aiguille selon ces deux angles, comme avec un rapporteur ; une aiguille dans votre propre main, vous la tournez vous-même</translation>
         </message>
         <message>
             <source>Entry on the skin</source>

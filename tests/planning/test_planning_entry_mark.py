@@ -12,6 +12,7 @@ from app.planning.entry_mark import (
     EntryMark,
     NeedleAngles,
     bore_room_mm,
+    direction_of,
     mark_of,
     needle_angles,
 )
@@ -38,6 +39,15 @@ def test_angles_are_those_of_a_protractor(way, angles) -> None:
 def test_a_patient_on_the_left_side_has_other_angles_for_the_same_path() -> None:
     found = needle_angles(path(60, 60, 0), (-1.0, 0.0))  # his right lies up
     assert found.in_plane_deg == pytest.approx(-45.0)
+
+
+@pytest.mark.parametrize("tilt", [0.0, -20.0])
+def test_what_is_dialled_is_the_direction_of_the_path(tilt: float) -> None:
+    for way, up in (((20, 60, -9), SUPINE), ((30, -4, 12), (-1.0, 0.0))):
+        leaning = path(*way)
+        angles = needle_angles(leaning, up, tilt)
+        wanted = np.array(way) / np.linalg.norm(way)
+        np.testing.assert_allclose(direction_of(angles, up, tilt), wanted, atol=1e-12)
 
 
 def test_a_gantry_tilted_along_the_path_takes_its_angle_out_of_the_slice() -> None:

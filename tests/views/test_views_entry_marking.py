@@ -100,3 +100,21 @@ def test_a_place_beyond_the_grid_is_refused_in_words(gridded) -> None:
     assert window.conductor.marking.mark is None
     with pytest.raises(Exception, match="1 to 5"):
         window.conductor.marking._grid.point(GridPlace(0.0, 6))
+
+
+def test_the_needle_points_as_it_is_dialled(gridded, settle) -> None:
+    window = gridded
+    assert settle(lambda: window.conductor.controller.run is not None)
+    controller, panel = window.conductor.controller, window.workspace.exercise_panel.entry
+    controller.begin("s")
+    controller.poll()
+    panel.plane.setValue(8.0)
+    panel.head.setValue(-3.0)
+    before = window.workspace.bullseye.hand
+    assert before is not None
+    window.conductor._dial()
+    after = window.workspace.bullseye.hand
+    patient = controller.run.placed.T_world_patient.inverse().rotate(after.direction)
+    assert np.degrees(np.arctan2(patient[0], patient[1])) == pytest.approx(8.0, abs=0.1)
+    assert np.degrees(np.arcsin(patient[2])) == pytest.approx(-3.0, abs=0.1)
+    assert after.depth == before.depth

@@ -251,6 +251,7 @@ class Conductor(QObject):
         self.scans.failed.connect(self.failed)
         self.marking.failed.connect(self.failed)
         self.controller.beginning.connect(self._tell_mark)
+        self._workspace.exercise_panel.entry.dialled.connect(self._dial)
 
     @property
     def profile(self) -> DeviceProfile | None:
@@ -538,6 +539,12 @@ class Conductor(QObject):
         ct = CtFacts.of_volume(volume)
         self.runs.want(RunSetup(self.exercise, placed, ct, robot, cameras, volume, shows))
 
+    def _dial(self) -> None:
+        """Let the simulated hand point the needle as it is dialled."""
+        run, direction = self.controller.run, self.marking.direction()
+        if run is not None and direction is not None:
+            self.views.bullseye.point(run.placed.T_world_patient.rotate(direction))
+
     def _tell_mark(self) -> None:
         """Tell the run where the entry was marked, before an attempt begins."""
         run = self.controller.run
@@ -604,6 +611,7 @@ class Conductor(QObject):
         if running != self._editor.locked:
             self._editor.set_locked(running)
             self.marking.look()
+            self._workspace.exercise_panel.entry.set_dials(running)
             if not running:
                 self._workspace.room.end()
             self.views_changed.emit()

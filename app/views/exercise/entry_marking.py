@@ -18,7 +18,13 @@ from app.core.errors import AcusError
 from app.exercises.schema import Exercise
 from app.imaging.scan_order import ScanOrder, middle_of
 from app.imaging.skin_grid import GridPlace, GridSpec, SkinGrid
-from app.planning.entry_mark import EntryMark, bore_room_mm, needle_angles
+from app.planning.entry_mark import (
+    EntryMark,
+    NeedleAngles,
+    bore_room_mm,
+    direction_of,
+    needle_angles,
+)
 from app.planning.patient import Patient
 from app.planning.plan import Plan
 from app.views.exercise.scan_view import FARTHEST_MM
@@ -46,16 +52,20 @@ class EntryMarkPanel(QWidget):
     Signals:
         moved(): another place is set.
         wanted(): the place shall be the entry.
+        dialled(): the needle shall point as the angles say.
     """
 
     moved = Signal()
     wanted = Signal()
+    dialled = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.table, self.offset = QDoubleSpinBox(self), QDoubleSpinBox(self)
         self.line = QSpinBox(self)
         self.mark = QPushButton(tr("Mark the entry"), self)
+        self.plane, self.head = QDoubleSpinBox(self), QDoubleSpinBox(self)
+        self.dial = QPushButton(tr("Point the needle"), self)
         self.words, self._names = PlainLabel(self), list[PlainLabel]()
         self._prepare()
         self._lay_out()
@@ -77,6 +87,15 @@ class EntryMarkPanel(QWidget):
         """Offer no mark during an attempt; what is said stays."""
         for widget in (*self._names, self.table, self.line, self.offset, self.mark):
             widget.setVisible(not locked)
+
+    @property
+    def angles(self) -> NeedleAngles:
+        """Return the angles that are dialled."""
+        return NeedleAngles(self.plane.value(), self.head.value())
+
+    def set_dials(self, dials: bool) -> None:
+        """Say whether there is a simulated needle to be pointed now."""
+        self.dial.setEnabled(dials)
 
     @property
     def place(self) -> GridPlace:
@@ -109,6 +128,24 @@ class EntryMarkPanel(QWidget):
         )
         self.mark.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.mark.clicked.connect(self.wanted)
+        for field, name, help_text in (
+            (self.plane, tr("In the slice"), tr("From straight down, + towards higher numbers")),
+            (self.head, tr("Out of it"), tr("Cranio-caudal: + towards the head")),
+        ):
+            field.setRange(-80.0, 80.0)
+            field.setDecimals(1)
+            field.setSuffix(tr("°"))
+            field.setAccessibleName(name)
+            field.setToolTip(help_text)
+            field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.dial.setToolTip(
+            tr(
+                "Lets the simulated hand point the needle by these two angles, as by a protractor; "
+                "a needle in your own hand you turn yourself"
+            )
+        )
+        self.dial.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.dial.clicked.connect(self.dialled)
         self.words.setWordWrap(True)
 
     def _lay_out(self) -> None:
@@ -131,6 +168,12 @@ class EntryMarkPanel(QWidget):
             grid.addWidget(widget, row, 1)
         grid.addWidget(self.mark, 4, 0, 1, 2)
         grid.addWidget(self.words, 5, 0, 1, 2)
+        for row, (name, widget) in enumerate(
+            ((tr("In the slice"), self.plane), (tr("Out of it"), self.head)), 6
+        ):
+            grid.addWidget(PlainLabel(name, self), row, 0)
+            grid.addWidget(widget, row, 1)
+        grid.addWidget(self.dial, 8, 0, 1, 2)
         grid.setColumnStretch(1, 1)
 
 
@@ -177,6 +220,12 @@ class EntryMarking(QObject):
     def show_words(self) -> None:
         """Say the angles anew: the gantry is tilted otherwise."""
         self._show()
+
+    def direction(self) -> FloatArray | None:
+        """Return the direction that is dialled, LPS, unit, shape (3,); None without a grid."""
+        if self._grid is None:
+            return None
+        return direction_of(self._panel.angles, self._grid.spec.up, self._tilt_deg())
 
     def look(self) -> None:
         """Look at what is planned: an entry that was not marked is the planned one."""
