@@ -15,6 +15,7 @@ from app.planning.entry_mark import EntryMark, NeedleAngles, mark_of
 from app.scoring import metrics
 from app.session.control_scan import scans_of
 from app.session.recording import read_recording
+from app.session.replay import contents
 
 ENTRY = np.array([-12.5, -98.0, 310.2])
 
@@ -49,6 +50,9 @@ def test_the_mark_is_told_recorded_and_scored(bench: Bench) -> None:
     (event,) = [e for e in recording.events if e.data.get("step") == "mark_entry"]
     assert mark_of(event.data).error_mm == 3.5
     assert "line 6 +2.0 mm: 3.5 mm on the skin from the planned entry" in event.message
+    listed = contents(recording)
+    assert any("line 6 +2.0 mm" in line for line in listed.sentences())
+    assert listed.document()["entry_mark"]["line"] == 6
     assert metrics.find("entry_mark_error").compute(recording.trajectory()) == 3.5
 
 
