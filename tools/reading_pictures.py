@@ -189,7 +189,7 @@ def scanning(studio: Studio) -> None:
     studio.begin("scans-only")
     studio.insert(0.75)
     window.workspace.show_exercise()
-    panel.scan.set_table(float(window.workspace.viewing.cursor_mm[2]))
+    panel.scan.table.setValue(float(window.workspace.viewing.cursor_mm[2]))
     panel.buttons.scan_requested.emit()
     wait(lambda: window.workspace.scan_view.scan is not None)
     studio.trainer.step()  # the panel counts it

@@ -7,12 +7,16 @@ from __future__ import annotations
 
 from typing import Annotated, Final
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from app.core.arrays import FloatArray
 from app.core.configuration import Strict
 from app.core.messages import sentence, sentence_of
 from app.exercises.ablation import AblationPart
+from app.imaging.skin_grid import GridSpec
 from app.planning.errors import PlanError
+from app.planning.placement import Placement
 from app.planning.sampling import Throw
 
 OF_PROCEDURES: Final = {
@@ -26,6 +30,7 @@ OF_PROCEDURES: Final = {
             "zone_reaches",
         }
     ),
+    "grid": frozenset({"entry_mark_error"}),
     "biopsy": frozenset({"diagnostic_samples", "lesion_in_sample", "throw_hits", "hub_open_time"}),
     "complications": frozenset({"complication_noticed", "complication_answer"}),
 }
@@ -127,16 +132,48 @@ class ComplicationsPart(Strict):
         return self
 
 
+class GridPart(Strict):
+    """A grid of metal lines on the skin, by which the student finds and marks the entry.
+
+    Attributes:
+        lines: how many, an odd number: the middle one lies above the target.
+        spacing_mm: from line to line along the skin.
+        length_mm: of the lines, the target's level in their middle.
+    """
+
+    lines: Annotated[int, Field(ge=3, le=31)] = 13
+    spacing_mm: Annotated[float, Field(ge=2.0, le=30.0)] = 10.0
+    length_mm: Annotated[float, Field(ge=20.0, le=300.0)] = 150.0
+
+    @model_validator(mode="after")
+    def _has_a_middle(self) -> GridPart:
+        if self.lines % 2 == 0:
+            raise ValueError(
+                sentence("lines: {lines}: an odd number has a line in the middle", lines=self.lines)
+            )
+        return self
+
+    def spec(self, target_mm: FloatArray, placement: Placement) -> GridSpec:
+        """Return the grid on a patient who lies so, above a target, LPS [mm], shape (3,)."""
+        x, y, z = (float(value) for value in target_mm)
+        up = placement.rotation.T @ np.array([0.0, 0.0, 1.0])
+        length = float(np.hypot(up[0], up[1]))
+        side = (float(up[0]) / length, float(up[1]) / length) if length > 1e-6 else (0.0, -1.0)
+        return GridSpec((x, y, z), side, self.lines, self.spacing_mm, self.length_mm)
+
+
 class ProcedurePart(Strict):
     """What belongs to the intervention; None for each step that the exercise does without.
 
     Attributes:
+        grid: metal lines on the skin, by which the entry is marked.
         anaesthetic: local anaesthetic first, by a needle of its own.
         biopsy: samples through a coaxial needle.
         complications: what can happen to the lung, and has to be noticed and answered.
         ablation: electrodes left in place one after another, then the generator.
     """
 
+    grid: GridPart | None = None
     anaesthetic: AnaestheticPart | None = None
     biopsy: BiopsyPart | None = None
     complications: ComplicationsPart | None = None
@@ -149,6 +186,11 @@ class ProcedurePart(Strict):
                 sentence("procedure: samples and ablation are two exercises: leave one out")
             )
         return self
+
+    @property
+    def has_steps(self) -> bool:
+        """Return whether anything is done during the attempt."""
+        return self.anaesthetic is not None or self.biopsy is not None
 
     @model_validator(mode="after")
     def _asks_for_something(self) -> ProcedurePart:

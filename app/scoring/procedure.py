@@ -73,6 +73,7 @@ class ProcedureMarks:
         met_before: what the needle for local anaesthetic met.
         complications: that happened, and what was done about them; None where none can.
         ablation: by the electrodes that were left in place; None where nothing was ablated.
+        entry_error_mm: way along the skin from the planned to the marked entry; None without.
     """
 
     deposits: tuple[Deposit, ...] = ()
@@ -101,6 +102,8 @@ class ProcedureMarks:
             for one in self.met_before
             if one.by == BY_TIP and one.counts and (one.kind == TissueKind.LUNG or one.holds_target)
         )
+
+    entry_error_mm: float | None = None
 
 
 def _check(*numbers: float) -> None:

@@ -45,6 +45,9 @@ KIND: Final = "procedure"
 
 VERSION: Final = 1
 
+MARKED: Final = "mark_entry"
+"""Step of the event that says where the entry was marked, before the needle is touched."""
+
 
 class Tool(StrEnum):
     """What the shaft in the robot stands for."""
@@ -297,9 +300,12 @@ def marks_of(
     open_from: float | None = None
     ablated: AblationMark | None = None
     opened: list[tuple[float, float]] = []
+    error: float | None = None
     for event, step in steps:
         data: dict[str, Any] = dict(event.data)
         with suppress(LookupError, TypeError, ValueError, TrajectoryError):
+            if event.data.get("step") == MARKED:
+                error = float(data["error_mm"])
             if step is Step.INJECT:
                 gap = data["gap_mm"]
                 deposits.append(
@@ -335,6 +341,7 @@ def marks_of(
         before,
         happened,
         ablated,
+        error,
     )
 
 

@@ -152,7 +152,7 @@ def reasons(metric: str, past: AttemptEvidence) -> tuple[str, ...]:
         parts.append(_force)
     if metric in RISKS:
         parts.append(_risk)
-    if metric in ("control_scans", "notional_dose"):
+    if metric in ("control_scans", "notional_dose", "hand_dose"):
         parts.append(_scans)
     if metric in OF_OWN_PLANS and past.planned is not None:
         return plan_sentences(past.planned)

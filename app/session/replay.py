@@ -10,6 +10,7 @@ without computing anything.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite
@@ -20,7 +21,9 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build, changes
+from app.core.errors import AcusError
 from app.core.messages import sentence
+from app.planning.entry_mark import EntryMark, mark_of
 from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.session.blocks import CABLES, CLOCK, INPUTS, JUDGED, LATER, SLOT_NAMES, UNSTEADY, WIRE
@@ -29,6 +32,8 @@ from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.digest import MEASURED, digests
 from app.session.effect_models import ModelChoice, choices_of
 from app.session.errors import ReplayError
+from app.session.procedure import KIND as PROCEDURE
+from app.session.procedure import MARKED
 from app.session.recording import Recording
 from app.session.risks import event_of, mark_sentence, risk_marks
 from app.session.ticks import Inputs
@@ -460,6 +465,7 @@ class ReplayContents:
         ct: the CT, and how it was read.
         risks: structures of risk, and how near the needle came.
         met: what the needle met; None where the record says nothing of it.
+        entry: where it was marked on the skin; None where it was not.
     """
 
     session: str
@@ -478,6 +484,7 @@ class ReplayContents:
     ct: CtFacts = UNKNOWN_CT
     risks: tuple[RiskMark, ...] = ()
     met: tuple[Met, ...] | None = None
+    entry: EntryMark | None = None
 
     def sentences(self) -> list[str]:
         """Say it, one line each."""
@@ -506,6 +513,7 @@ class ReplayContents:
         ]
         if self.ct.recipe is not None:
             lines.append(f"CT {self.ct.pseudonym}: {self.ct.words()}")
+        lines += [] if self.entry is None else [self.entry.words]
         lines += [scan.sentence(self.origin) for scan in self.scans]
         lines += [mark_sentence(mark) for mark in self.risks]
         lines += [met.sentence for met in self.met or ()]
@@ -531,6 +539,7 @@ class ReplayContents:
             "risks": [dict(event_of(mark).data) for mark in self.risks],
             "tissues_met": None if self.met is None else [met.document() for met in self.met],
             "scans": [scan.document(self.origin) for scan in self.scans],
+            **({} if self.entry is None else {"entry_mark": self.entry.data()}),
         }
 
 
@@ -559,7 +568,17 @@ def contents(recording: Recording) -> ReplayContents:
         ct=recording.ct,
         risks=risk_marks(recording.events),
         met=tissues_met(recording.events),
+        entry=_entry_mark(recording),
     )
+
+
+def _entry_mark(recording: Recording) -> EntryMark | None:
+    """Return where the entry was marked; None where nobody did, or what is said is damaged."""
+    for event in recording.events:
+        if event.kind == PROCEDURE and event.data.get("step") == MARKED:
+            with suppress(AcusError, LookupError, TypeError, ValueError):
+                return mark_of(event.data)
+    return None
 
 
 def _changing(recording: Recording) -> dict[str, int]:

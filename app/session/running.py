@@ -10,11 +10,10 @@ from app.core.events import Event, EventQueue
 from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.imaging.field import TissueField
-from app.imaging.inside import Inside
-from app.imaging.scan_order import ScanOrder
 from app.session import control_scan, machine, procedure
 from app.session.abort_reasons import abort_words
 from app.session.attempt_log import AttemptLog
+from app.session.control_scan import Taking
 from app.session.errors import IllegalTransitionError, ProcedureNotPossibleError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
@@ -234,23 +233,29 @@ class RunningAttempt:
         log.sample(self._sample(seen, inputs))
         return ""
 
-    def scan(
-        self,
-        seen: Observation | None,
-        now: float,
-        order: ScanOrder | None = None,
-        dose: float = 0.0,
-        streak: bool = False,
-        inside: Inside | None = None,
-    ) -> int:
-        """Take a control scan at `now` [s]; without an order it is only counted.
-
-        `dose` is notional, of the whole scan [mGy·cm]; `streak` whether the metal leaves one;
-        `inside` what complications have changed in the patient.
+    def scan(self, seen: Observation | None, now: float, taking: Taking | None = None) -> int:
+        """Take a control scan at `now` [s]; without one to be taken it is only counted.
 
         Raises:
             IllegalTransitionError: if no attempt is running.
             ScanNotPossibleError: if nobody knows where the needle is.
+        """
+        log = self.require_scannable()
+        number = log.scans + 1
+        data: dict[str, object] = {"number": number}
+        if taking is not None:
+            data |= control_scan.take(number, taking, now, seen, log.placed).data()
+        log.scans = number
+        if seen is not None and seen.pose.valid:
+            data["tip_m"] = seen.pose.p_tip.tolist()
+        self.say("scan", f"control scan {log.scans}", now, data)
+        return log.scans
+
+    def require_scannable(self) -> AttemptLog:
+        """Refuse a control scan where no attempt runs; returns the log of the one that does.
+
+        Raises:
+            IllegalTransitionError: naming the state.
         """
         if self.log is None or not self.attempt.running or self.withdrawing:
             raise IllegalTransitionError(
@@ -259,17 +264,7 @@ class RunningAttempt:
                     attempt_state=self.attempt.state,
                 )
             )
-        number = self.log.scans + 1
-        data: dict[str, object] = {"number": number}
-        if order is not None:
-            data |= control_scan.take(
-                number, order, dose, now, seen, self.log.placed, streak, inside
-            ).data()
-        self.log.scans = number
-        if seen is not None and seen.pose.valid:
-            data["tip_m"] = seen.pose.p_tip.tolist()
-        self.say("scan", f"control scan {self.log.scans}", now, data)
-        return self.log.scans
+        return self.log
 
     def perform(
         self,

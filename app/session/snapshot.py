@@ -88,6 +88,7 @@ class Snapshot:
         complications: what the student sees of complications; None where none can happen.
         pause: why the attempt waits; None while it does not.
         simulated: whether robot and cameras both are: nobody can show them a marker.
+        out_of_room: time until the student is back from a control scan [s]; None while he is there.
     """
 
     time: float
@@ -120,6 +121,7 @@ class Snapshot:
     complications: ComplicationsState | None = None
     pause: PauseCause | None = None
     simulated: bool = False
+    out_of_room: float | None = None
 
     @property
     def aim(self) -> PlacedPlan | None:

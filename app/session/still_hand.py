@@ -78,6 +78,7 @@ class StillHand:
         device: DeviceState | None,
         pose: NeedlePose,
         simulated: bool,
+        away: bool = False,
     ) -> None:
         """Look once: let the hand stand as a pause begins, and obey again once it is over.
 
@@ -86,8 +87,9 @@ class StillHand:
             device: as the loop has it now; None where it does not tell.
             pose: of the needle now.
             simulated: whether the hand is a simulated one, whose own place the loop knows.
+            away: whether nobody is at the needle: then too the hand stands where it is.
         """
-        if cause is None:
+        if cause is None and not away:
             self._held = None
             if device is not None:
                 self._remember(pose, _place(device, simulated))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Final
 
@@ -13,13 +14,15 @@ from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
-from app.core.messages import sentence
+from app.core.messages import sentence, sentence_of
 from app.core.paced_clock import PacedClock
 from app.core.units import MILLIMETRE
-from app.exercises.guidance import Purpose
+from app.exercises.guidance import Purpose, ScanChoice
 from app.exercises.locks import Lock
 from app.imaging.field import TissueField
+from app.imaging.scan_look import NeedleEnds
 from app.imaging.scan_order import ScanOrder
+from app.planning.entry_mark import EntryMark
 from app.planning.placement import PlacedPlan
 from app.scoring.complications.answers import Reaction
 from app.session.ablation import AblationState
@@ -35,6 +38,7 @@ from app.session.complications import (
 )
 from app.session.conditions import ARM, POINTERS, TAKEN_OVER, TRAINEE, hand_of
 from app.session.context import RunContext
+from app.session.control_scan import ROOM, Leave, Taking, require_inside
 from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import (
     ControlLockedError,
@@ -48,7 +52,8 @@ from app.session.machine import IN_BODY, AttemptEvent
 from app.session.needle_now import NeedleNow
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.procedure import KIND as PROCEDURE
-from app.session.procedure import ProcedureState, Step, Tool, begin_data
+from app.session.procedure import MARKED, ProcedureState, Step, Tool, begin_data
+from app.session.procedure import VERSION as PROCEDURE_VERSION
 from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk
@@ -81,6 +86,9 @@ if TYPE_CHECKING:
 TICK_PERIOD: Final = 0.02
 """The trainer looks at everything this often [s]."""
 
+SAME_ENTRY_MM: Final = 1.5
+"""An entry so near to where one was marked is that one, moved onto the skin next to it."""
+
 Advance = Callable[[float], None]
 """Lets simulated parts other than the loop catch up with virtual time [s]."""
 
@@ -93,8 +101,8 @@ class Trainer:
     thread; `end` and `abort` write files, the others only take a lock for a moment.
 
     Attributes:
-        events: for the window to drain: `state`, `abort`, `scan`, `breath`, `touch`, `recorder`,
-            and the tracker's.
+        events: for the window to drain: `state`, `abort`, `scan`, `room`, `breath`, `touch`,
+            `recorder`, and the tracker's.
         result: of the attempt that finished last; None before the first.
         resting: by which simulated robot and cameras rest while nobody wants them.
     """
@@ -145,6 +153,8 @@ class Trainer:
         self._case = ComplicationCase.of(exercise, placed, tissues)
         self._happens: Complications | None = None
         self._skill, self._answers = scripted, ScriptedAnswers.of(scripted)
+        self._leave: Leave | None = None
+        self._mark: EntryMark | None = None
         self._dial = exercise.assistance if dial is None else dial
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
@@ -297,6 +307,7 @@ class Trainer:
             out = self._withdrawal.begin(seen.device, seen.pose, now, hand == ARM, begins)
             self._running.begin(log, now, failure, out)
             self._hand.forget()
+            self._leave = None
             self._lost_before = 0.0 if self._paced is None else self._paced.lost
             if self._touching is not None:
                 words, data = begin_words(self._touching.state)
@@ -309,6 +320,9 @@ class Trainer:
                 self._take_aim()
                 data = begin_data(self._procedure)
                 self._running.say(PROCEDURE, self._procedure.words, now, data)
+                if (mark := self._mark_here()) is not None:
+                    data = {"version": PROCEDURE_VERSION, "step": MARKED, **mark.data()}
+                    self._running.say(PROCEDURE, mark.words, now, data)
             self._begin_complications(header, now)
             self.heartbeat()
             if out is None:
@@ -339,22 +353,84 @@ class Trainer:
         with self._lock:
             self._withdrawal.confirm()
 
-    def scan(self, order: ScanOrder | None = None) -> int:
+    def scan(self, order: ScanOrder | None = None, choice: ScanChoice | None = None) -> int:
         """Take a control scan; returns how many were taken. Without an order it is only counted.
 
+        Who leaves the room for it (`choice.leaves`) is told of the scan by its event, half of
+        `guidance.leave_room_s` later.
+
+        Args:
+            order: which slices.
+            choice: tube current, and whether the student leaves; None for what is proposed, in
+                the room.
+
         Raises:
-            IllegalTransitionError: if no attempt is running.
+            IllegalTransitionError: if no attempt is running, or the student is out of the room.
+            ScanOrderError: for what the exercise does not offer; names what it does.
             ScanNotPossibleError: if there is an order and nobody knows where the needle is.
         """
         guidance = self._exercise.guidance
-        dose = 0.0 if order is None else guidance.dose(order)
         with self._lock:
             now = self._clock.now()
-            inside = None
-            if order is not None and self._happens is not None:
-                inside = self._happens.scanned()
-            seen = self._sources.seen
-            return self._running.scan(seen, now, order, dose, guidance.streak, inside)
+            require_inside(self._leave, now)
+            if order is None:
+                return self._running.scan(self._sources.seen, now)
+            choice = choice or replace(guidance.choice, leaves=False)
+            guidance.check(order, choice)
+            taking = self._taking(order, choice)
+            if not choice.leaves or guidance.leave_room_s is None:
+                return self._running.scan(self._sources.seen, now, self._as_it_is(taking))
+            log = self._running.require_scannable()
+            self._leave = Leave(taking, now, guidance.leave_room_s)
+            self._running.say(
+                ROOM, sentence("the student leaves the room"), now, {"seconds": self._leave.lasts}
+            )
+            return log.scans
+
+    def _taking(self, order: ScanOrder, choice: ScanChoice) -> Taking:
+        """Return the scan with the needle that the shaft stands for now."""
+        guidance, asked, grid = self._exercise.guidance, self._exercise.procedure, None
+        if asked is not None and asked.grid is not None:
+            plan = self._placed.plan
+            grid = asked.grid.spec(plan.target_mm, self._placed.placement)
+        if guidance.needle_ends is NeedleEnds.PLAIN:
+            return Taking(order, guidance, choice, grid=grid)
+        needle, procedure = self._exercise.needle, self._procedure
+        hollow = procedure is not None and procedure.tool is Tool.OPEN
+        return Taking(order, guidance, choice, needle.gauge, needle.tip, hollow, grid)
+
+    def _as_it_is(self, taking: Taking) -> Taking:
+        """Return a scan of the patient as complications have him when it is taken."""
+        return taking if self._happens is None else replace(taking, inside=self._happens.scanned())
+
+    def _be_out(self, now: float) -> None:
+        """Take the scan that somebody left the room for once it is due, and let him come back."""
+        leave = self._leave
+        if leave is None or not self._running.attempt.running:
+            self._leave = None
+            return
+        if not leave.taken and now >= leave.due:
+            self._leave = leave = replace(leave, taken=True)
+            try:
+                self._running.scan(self._sources.seen, now, self._as_it_is(leave.taking))
+            except AcusError as error:  # nothing was counted; the way was for nothing
+                self._running.say(ROOM, sentence_of(error), now)
+        if now >= leave.back:
+            self._leave = None
+            self._running.say(ROOM, sentence("the student is back at the patient"), now)
+
+    def mark_entry(self, mark: EntryMark | None) -> None:
+        """Take where the entry was marked on the skin; attempts that begin at it say so."""
+        with self._lock:
+            self._mark = mark
+
+    def _mark_here(self) -> EntryMark | None:
+        """Return the mark if the patient lies by it and the exercise has a grid."""
+        mark, asked = self._mark, self._exercise.procedure
+        if mark is None or asked is None or asked.grid is None:
+            return None
+        away = self._placed.plan.entry_mm - mark.marked_mm
+        return mark if float(away @ away) <= SAME_ENTRY_MM**2 else None
 
     def perform(self, step: Step, throw: int = 0, notch_deg: float = 0.0) -> ProcedureState:
         """Do a step of the exercise's procedure; returns how it stands then.
@@ -373,6 +449,7 @@ class Trainer:
             now = self._clock.now()
             seen, happens = self._sources.seen, self._happens
             fallen_mm = None if happens is None else happens.fallen_mm
+            require_inside(self._leave, now)
             self._procedure = self._running.perform(
                 self._procedure, step, seen, now, self._tissues, throw, notch_deg, fallen_mm
             )
@@ -447,6 +524,8 @@ class Trainer:
         (`session.still_hand`).
         """
         self.resting.want()
+        if self._leave is not None:
+            return  # nobody is at the needle
         if not self._withdrawal.moves_hand and self._hand.move(x, y, depth, holds):
             self._withdrawal.follow(x, y, depth)
 
@@ -515,7 +594,7 @@ class Trainer:
             NumericalError: if it is not a number.
         """
         self.resting.want()
-        if not self._running.paused:
+        if not self._running.paused and self._leave is None:
             self._inputs.roll(self._inputs.rolled + step)
 
     def assistance(self, value: float) -> None:
@@ -716,12 +795,13 @@ class Trainer:
             )
             self._arming.pause(was_paused, self._running.paused)
             cause, simulated = self._running.pause_cause, self._withdrawal.simulated
-            self._hand.follow(cause, seen.device, seen.pose, simulated)
+            self._hand.follow(cause, seen.device, seen.pose, simulated, self._leave is not None)
             self._touch(seen)
             if self._scripted is not None and seen.device is not None:
                 phase = float(seen.device.row[sv.TRAINEE_PHASE])
                 self._scripted.look(phase, now, self.perform)
             self._watch_patient(seen, now)
+            self._be_out(now)
             if self._breath is not None and (words := self._breath.observe(seen.device, now)):
                 self._running.say("breath", words, now, {"held": self._breath.now.held})
             reason = reason or self._bring_out(seen)
@@ -793,6 +873,7 @@ class Trainer:
             complications=None if self._happens is None else self._happens.state,
             pause=self._running.pause_cause,
             simulated=self._simulated,
+            out_of_room=None if self._leave is None else self._leave.left(now),
         )
         self._latest.publish(snapshot, now)
         return snapshot
@@ -812,6 +893,7 @@ class Trainer:
         self.disarm()
         self._withdrawal.stop()
         self._hand.forget()
+        self._leave = None
         self._inputs.unsteady(0, 0)
         now = self._clock.now()
         if (lost := self.lost) > SLOWED_S:

@@ -2724,6 +2724,26 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">probe_every: 1 würde jeden Versuch zum Testversuch machen; geben Sie 0 an, oder 2 und mehr</translation>
         </message>
         <message>
+            <source>tube_current names a current twice</source>
+            <translation>tube_current nennt einen Strom zweimal</translation>
+        </message>
+        <message>
+            <source>a tube current of {current} mA: the exercise offers {currents} mA</source>
+            <translation>ein Röhrenstrom von {current} mA: die Übung bietet {currents} mA</translation>
+        </message>
+        <message>
+            <source>a tube current of {current:g} mA: the exercise leaves no choice of it</source>
+            <translation>ein Röhrenstrom von {current:g} mA: die Übung lässt keine Wahl</translation>
+        </message>
+        <message>
+            <source>the exercise has no time for leaving the room</source>
+            <translation>die Übung hat keine Zeit, um den Raum zu verlassen</translation>
+        </message>
+        <message>
+            <source>a gantry tilted by {tilt_deg:g}°: the exercise keeps it straight</source>
+            <translation>eine um {tilt_deg:g}° gekippte Gantry: die Übung lässt sie gerade</translation>
+        </message>
+        <message>
             <source>no exercise {name_or_path!r}; there are {known_ids}, or give the path of a .yaml file</source>
             <translation type="unfinished">es gibt keine Übung {name_or_path!r}; vorhanden sind {known_ids}, oder geben Sie den Pfad einer .yaml-Datei an</translation>
         </message>
@@ -4052,12 +4072,28 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">Schichten von {slice_mm:g} mm: Gültig sind {thinnest_mm:g} bis {thickest_mm:g} mm</translation>
         </message>
         <message>
+            <source>the gantry's height {pivot_mm} is not a number</source>
+            <translation>die Höhe der Gantry {pivot_mm} ist keine Zahl</translation>
+        </message>
+        <message>
+            <source>slices of {slice_mm:g} mm every {interval_mm:g} mm leave a gap of {gap:g} mm: 0 mm is the least, and {widest:g} mm the farthest from slice to slice</source>
+            <translation>Schichten von {slice_mm:g} mm alle {interval_mm:g} mm lassen eine Lücke von {gap:g} mm: 0 mm ist das Kleinste, und {widest:g} mm das Weiteste von Schicht zu Schicht</translation>
+        </message>
+        <message>
+            <source>a gantry tilted by {tilt_deg:g}°: -{most:g}° to {most:g}° are valid</source>
+            <translation>eine um {tilt_deg:g}° gekippte Gantry: gültig sind -{most:g}° bis {most:g}°</translation>
+        </message>
+        <message>
             <source>the needle's hub and tip are both at {tip_mm}</source>
             <translation type="unfinished">Ansatz und Spitze der Nadel liegen beide bei {tip_mm}</translation>
         </message>
         <message>
             <source>a needle of radius {radius_mm} mm cannot be drawn</source>
             <translation type="unfinished">eine Nadel mit dem Radius {radius_mm} mm lässt sich nicht zeichnen</translation>
+        </message>
+        <message>
+            <source>a bore of radius {inner} mm does not fit a needle of radius {radius_mm} mm</source>
+            <translation>eine Bohrung mit Radius {inner} mm passt nicht in eine Nadel mit Radius {radius_mm} mm</translation>
         </message>
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
@@ -5564,6 +5600,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">ein Kontrollscan bei {time} s mit Dosis {dose} mGy·cm: Beide Zahlen müssen endlich sein, die Dosis nicht negativ</translation>
         </message>
         <message>
+            <source>a dose of the hand of {dose} µSv: it must be a number, not negative</source>
+            <translation>eine Handdosis von {dose} µSv: es muss eine Zahl sein, nicht negativ</translation>
+        </message>
+        <message>
             <source>no metric {name!r}; there are {metrics}</source>
             <translation type="unfinished">es gibt keine Messgröße {name!r}; vorhanden sind {metrics}</translation>
         </message>
@@ -6110,6 +6150,42 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>control scan {scan_number} at {time:.1f} s: {order_slices} slices of {order_slice_mm:g} mm about z {order_centre_mm:.1f} mm, {seen_words}, {dose:.1f} mGy·cm ({teaching_estimate})</source>
             <translation type="unfinished">Kontrollscan {scan_number} bei {time:.1f} s: Schichten: {order_slices} zu {order_slice_mm:g} mm um z {order_centre_mm:.1f} mm, {seen_words}, {dose:.1f} mGy·cm ({teaching_estimate})</translation>
+        </message>
+        <message>
+            <source>{told}; {chosen}</source>
+            <translation>{told}; {chosen}</translation>
+        </message>
+        <message>
+            <source>every {mm:g} mm</source>
+            <translation>alle {mm:g} mm</translation>
+        </message>
+        <message>
+            <source>gantry tilted by {deg:g}°</source>
+            <translation>Gantry um {deg:g}° gekippt</translation>
+        </message>
+        <message>
+            <source>{ma:g} mA</source>
+            <translation>{ma:g} mA</translation>
+        </message>
+        <message>
+            <source>stylet out</source>
+            <translation>Mandrin draußen</translation>
+        </message>
+        <message>
+            <source>out of the room</source>
+            <translation>außerhalb des Raums</translation>
+        </message>
+        <message>
+            <source>hand {usv:.1f} µSv (teaching estimate)</source>
+            <translation>Hand {usv:.1f} µSv (Schätzwert für die Lehre)</translation>
+        </message>
+        <message>
+            <source>shows the shaft, the tip lies in the gap between two slices</source>
+            <translation>zeigt den Schaft, die Spitze liegt in der Lücke zwischen zwei Schichten</translation>
+        </message>
+        <message>
+            <source>you are out of the room for a control scan: back in {left:.0f} s</source>
+            <translation>Sie sind für eine Kontrollaufnahme außerhalb des Raums: zurück in {left:.0f} s</translation>
         </message>
         <message>
             <source>no control scan: the needle's depth is not measured now, so that a picture would be a guess; nothing was counted. Let both cameras see the marker and press again</source>
@@ -6858,6 +6934,14 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>the tip moved by {spread_mm:.1f} mm while it was measured: rest it in the mark and hold still for a second</source>
             <translation type="unfinished">die Spitze bewegte sich während der Messung um {spread_mm:.1f} mm: Setzen Sie sie in die Marke und halten Sie eine Sekunde still</translation>
+        </message>
+        <message>
+            <source>the student leaves the room</source>
+            <translation>der Übende verlässt den Raum</translation>
+        </message>
+        <message>
+            <source>the student is back at the patient</source>
+            <translation>der Übende ist wieder beim Patienten</translation>
         </message>
         <message>
             <source>no complication can be answered now: begin an attempt at an exercise in which some can happen</source>
@@ -11438,6 +11522,10 @@ Anteil</translation>
             <translation type="unfinished">● Spitze</translation>
         </message>
         <message>
+            <source>◆ tip in a gap</source>
+            <translation>◆ Spitze in einer Lücke</translation>
+        </message>
+        <message>
             <source>▲ shaft only</source>
             <translation type="unfinished">▲ nur Schaft</translation>
         </message>
@@ -13539,6 +13627,10 @@ aus der Ebene {c:+.1f}° (Pfad {d:+.1f}°)</translation>
             <translation type="unfinished">Setzt die Kraft sofort auf null; der Versuch wird gespeichert, aber nicht bewertet</translation>
         </message>
         <message>
+            <source>Out of the room: {s:.0f} s</source>
+            <translation>Außerhalb des Raums: {s:.0f} s</translation>
+        </message>
+        <message>
             <source>Arm the robot and begin recording (F5)</source>
             <translation type="unfinished">Roboter scharf schalten und Aufzeichnung beginnen (F5)</translation>
         </message>
@@ -13799,6 +13891,10 @@ frei wählbar</translation>
             <translation type="unfinished">Scans: {n} · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
+            <source>Scans: {n} · {dose:.1f} mGy·cm · hand {hand:.0f} µSv ({estimate})</source>
+            <translation>Aufnahmen: {n} · {dose:.1f} mGy·cm · Hand {hand:.0f} µSv ({estimate})</translation>
+        </message>
+        <message>
             <source>Middle of the scan along the patient (z of LPS): + is headwards</source>
             <translation type="unfinished">Mitte des Scans entlang des Patienten (z in LPS): + ist kopfwärts</translation>
         </message>
@@ -13831,8 +13927,84 @@ frei wählbar</translation>
             <translation type="unfinished">Kontrollscan</translation>
         </message>
         <message>
+            <source>Mark the entry</source>
+            <translation>Einstich anzeichnen</translation>
+        </message>
+        <message>
+            <source>Point the needle</source>
+            <translation>Nadel richten</translation>
+        </message>
+        <message>
             <source>Table</source>
             <translation type="unfinished">Tisch</translation>
+        </message>
+        <message>
+            <source>Table position at which the laser meets the entry (z)</source>
+            <translation>Tischposition, bei der der Laser den Einstich trifft (z)</translation>
+        </message>
+        <message>
+            <source>Grid line</source>
+            <translation>Rasterlinie</translation>
+        </message>
+        <message>
+            <source>From the patient's right; each fifth is thick</source>
+            <translation>Von der rechten Seite des Patienten; jede fünfte ist dick</translation>
+        </message>
+        <message>
+            <source>Along the skin, + towards the next number</source>
+            <translation>Entlang der Haut, + zur nächsten Nummer hin</translation>
+        </message>
+        <message>
+            <source>Makes this place the entry: the patient is placed so that it lies on the fulcrum; how far it is from the entry that you planned is scored</source>
+            <translation>Macht diese Stelle zum Einstich: der Patient wird so gelagert, dass sie auf dem Drehpunkt liegt; wie weit sie vom geplanten Einstich entfernt ist, wird bewertet</translation>
+        </message>
+        <message>
+            <source>In the slice</source>
+            <translation>In der Schicht</translation>
+        </message>
+        <message>
+            <source>From straight down, + towards higher numbers</source>
+            <translation>Von senkrecht, + zu höheren Nummern</translation>
+        </message>
+        <message>
+            <source>Out of it</source>
+            <translation>Aus ihr heraus</translation>
+        </message>
+        <message>
+            <source>Cranio-caudal: + towards the head</source>
+            <translation>Kraniokaudal: + zum Kopf</translation>
+        </message>
+        <message>
+            <source>°</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Lets the simulated hand point the needle by these two angles, as by a protractor; a needle in your own hand you turn yourself</source>
+            <translation>Lässt die simulierte Hand die Nadel nach diesen beiden Winkeln richten, wie mit einem Winkelmesser; eine Nadel in der eigenen Hand drehen Sie selbst</translation>
+        </message>
+        <message>
+            <source>Entry on the skin</source>
+            <translation>Einstich auf der Haut</translation>
+        </message>
+        <message>
+            <source>Plan the entry on the CT first: the mark is compared with it</source>
+            <translation>Planen Sie zuerst den Einstich im CT: damit wird das Angezeichnete verglichen</translation>
+        </message>
+        <message>
+            <source>Plan the entry on the CT first</source>
+            <translation>Planen Sie zuerst den Einstich im CT</translation>
+        </message>
+        <message>
+            <source>Needle: {plane:+.1f}° in the slice (+ towards higher numbers), {head:+.1f}° out of it (+ towards the head)</source>
+            <translation>Nadel: {plane:+.1f}° in der Schicht (+ zu höheren Nummern), {head:+.1f}° aus ihr heraus (+ zum Kopf)</translation>
+        </message>
+        <message>
+            <source>Room between hub and bore: {mm:.0f} mm</source>
+            <translation>Platz zwischen Ansatz und Gantryöffnung: {mm:.0f} mm</translation>
+        </message>
+        <message>
+            <source>Marked at table {table:.1f} mm, line {line} {offset:+.1f} mm</source>
+            <translation>Angezeichnet bei Tisch {table:.1f} mm, Linie {line} {offset:+.1f} mm</translation>
         </message>
         <message>
             <source>All slices</source>
@@ -19096,6 +19268,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Dosis (Schätzwert für die Lehre)</translation>
         </message>
         <message>
+            <source>Dose of the hand (teaching estimate)</source>
+            <translation>Handdosis (Schätzwert für die Lehre)</translation>
+        </message>
+        <message>
             <source>Economy of motion</source>
             <translation type="unfinished">Bewegungsökonomie</translation>
         </message>
@@ -19258,6 +19434,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Lung, oblique twice between ribs</source>
             <translation type="unfinished">Lunge, doppelt schräg zwischen Rippen</translation>
+        </message>
+        <message>
+            <source>Marked entry off the planned one</source>
+            <translation>Angezeichneter Einstich neben dem geplanten</translation>
         </message>
         <message>
             <source>Mask, then the centroid of the covered shares</source>
@@ -23078,6 +23258,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Weder Pneumothorax noch Blutung kann eintreten: complications weglassen</translation>
         </message>
         <message>
+            <source>lines: {lines}: an odd number has a line in the middle</source>
+            <translation>lines: {lines}: eine ungerade Zahl hat eine Linie in der Mitte</translation>
+        </message>
+        <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
             <translation type="unfinished" />
         </message>
@@ -23672,6 +23856,82 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
             <translation type="unfinished" />
+        </message>
+        <message>
+            <source>grid line {line}: there are 1 to {lines}</source>
+            <translation>Rasterlinie {line}: es gibt 1 bis {lines}</translation>
+        </message>
+        <message>
+            <source>the grid does not reach there</source>
+            <translation>so weit reicht das Raster nicht</translation>
+        </message>
+        <message>
+            <source>there is no skin under the grid {mm:.0f} mm beside its middle</source>
+            <translation>{mm:.0f} mm neben der Mitte ist keine Haut unter dem Raster</translation>
+        </message>
+        <message>
+            <source>there is no skin under the grid's middle line</source>
+            <translation>unter der mittleren Linie des Rasters ist keine Haut</translation>
+        </message>
+        <message>
+            <source>entry marked at table {table:.1f} mm, line {line} {offset:+.1f} mm: {error:.1f} mm on the skin from the planned entry</source>
+            <translation>Einstich angezeichnet bei Tisch {table:.1f} mm, Linie {line} {offset:+.1f} mm: auf der Haut {error:.1f} mm vom geplanten Einstich</translation>
+        </message>
+        <message>
+            <source>no entry was marked with the grid</source>
+            <translation>mit dem Raster wurde kein Einstich angezeichnet</translation>
+        </message>
+        <message>
+            <source>no control scan says a dose of the hand: the exercise does not ask for it</source>
+            <translation>keine Kontrollaufnahme nennt eine Handdosis: die Übung fragt nicht danach</translation>
+        </message>
+        <message>
+            <source>Leave the room</source>
+            <translation>Raum verlassen</translation>
+        </message>
+        <message>
+            <source>Current</source>
+            <translation>Strom</translation>
+        </message>
+        <message>
+            <source>Gantry</source>
+            <translation>Gantry</translation>
+        </message>
+        <message>
+            <source>{ma} mA</source>
+            <translation>{ma} mA</translation>
+        </message>
+        <message>
+            <source>Leaving and coming back take {seconds:g} s of the attempt; who stays saves them, and his hand gets its share of the scattered radiation (a teaching estimate)</source>
+            <translation>Hinausgehen und Zurückkommen dauern {seconds:g} s des Versuchs; wer bleibt, spart sie, und seine Hand bekommt ihren Teil der Streustrahlung (ein Schätzwert für die Lehre)</translation>
+        </message>
+        <message>
+            <source>leaving</source>
+            <translation>geht hinaus</translation>
+        </message>
+        <message>
+            <source>coming back</source>
+            <translation>kommt zurück</translation>
+        </message>
+        <message>
+            <source>{where}: {left:.0f} s</source>
+            <translation>{where}: {left:.0f} s</translation>
+        </message>
+        <message>
+            <source>Tube current</source>
+            <translation>Röhrenstrom</translation>
+        </message>
+        <message>
+            <source>Noise of the picture goes as one over the square root of the current, the dose goes as the current</source>
+            <translation>Das Rauschen des Bildes geht wie eins durch die Wurzel des Stroms, die Dosis wie der Strom</translation>
+        </message>
+        <message>
+            <source>Gantry tilt</source>
+            <translation>Gantrykippung</translation>
+        </message>
+        <message>
+            <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
+            <translation>Kippung der Gantry: + neigt die Vorderseite der Schichten zum Kopf. Schichten, und was von der Nadel in ihnen liegt, gehen mit</translation>
         </message>
     </context>
 </TS>

@@ -2724,6 +2724,26 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">probe_every: 1 ferait de chaque essai un essai témoin ; donnez 0, ou 2 et plus</translation>
         </message>
         <message>
+            <source>tube_current names a current twice</source>
+            <translation>tube_current nomme deux fois un courant</translation>
+        </message>
+        <message>
+            <source>a tube current of {current} mA: the exercise offers {currents} mA</source>
+            <translation>un courant de tube de {current} mA : l’exercice propose {currents} mA</translation>
+        </message>
+        <message>
+            <source>a tube current of {current:g} mA: the exercise leaves no choice of it</source>
+            <translation>un courant de tube de {current:g} mA : l’exercice n’en laisse pas le choix</translation>
+        </message>
+        <message>
+            <source>the exercise has no time for leaving the room</source>
+            <translation>l’exercice ne prévoit pas de temps pour quitter la salle</translation>
+        </message>
+        <message>
+            <source>a gantry tilted by {tilt_deg:g}°: the exercise keeps it straight</source>
+            <translation>un statif incliné de {tilt_deg:g}° : l’exercice le garde droit</translation>
+        </message>
+        <message>
             <source>no exercise {name_or_path!r}; there are {known_ids}, or give the path of a .yaml file</source>
             <translation type="unfinished">il n’y a pas d’exercice {name_or_path!r} ; il y a {known_ids}, ou donnez le chemin d’un fichier .yaml</translation>
         </message>
@@ -4052,12 +4072,28 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">coupes de {slice_mm:g} mm : sont valides {thinnest_mm:g} à {thickest_mm:g} mm</translation>
         </message>
         <message>
+            <source>the gantry's height {pivot_mm} is not a number</source>
+            <translation>la hauteur du statif {pivot_mm} n’est pas un nombre</translation>
+        </message>
+        <message>
+            <source>slices of {slice_mm:g} mm every {interval_mm:g} mm leave a gap of {gap:g} mm: 0 mm is the least, and {widest:g} mm the farthest from slice to slice</source>
+            <translation>des coupes de {slice_mm:g} mm tous les {interval_mm:g} mm laissent un intervalle de {gap:g} mm : 0 mm est le minimum, et {widest:g} mm le plus loin de coupe à coupe</translation>
+        </message>
+        <message>
+            <source>a gantry tilted by {tilt_deg:g}°: -{most:g}° to {most:g}° are valid</source>
+            <translation>un statif incliné de {tilt_deg:g}° : de -{most:g}° à {most:g}° sont valides</translation>
+        </message>
+        <message>
             <source>the needle's hub and tip are both at {tip_mm}</source>
             <translation type="unfinished">l’embase et la pointe de l’aiguille sont toutes deux en {tip_mm}</translation>
         </message>
         <message>
             <source>a needle of radius {radius_mm} mm cannot be drawn</source>
             <translation type="unfinished">une aiguille de rayon {radius_mm} mm ne peut pas être dessinée</translation>
+        </message>
+        <message>
+            <source>a bore of radius {inner} mm does not fit a needle of radius {radius_mm} mm</source>
+            <translation>un alésage de rayon {inner} mm ne convient pas à une aiguille de rayon {radius_mm} mm</translation>
         </message>
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
@@ -5564,6 +5600,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">un scan de contrôle à {time} s avec une dose de {dose} mGy·cm : les deux nombres doivent être finis, la dose non négative</translation>
         </message>
         <message>
+            <source>a dose of the hand of {dose} µSv: it must be a number, not negative</source>
+            <translation>une dose à la main de {dose} µSv : ce doit être un nombre, non négatif</translation>
+        </message>
+        <message>
             <source>no metric {name!r}; there are {metrics}</source>
             <translation type="unfinished">aucun indicateur {name!r} ; il existe {metrics}</translation>
         </message>
@@ -6110,6 +6150,42 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         <message>
             <source>control scan {scan_number} at {time:.1f} s: {order_slices} slices of {order_slice_mm:g} mm about z {order_centre_mm:.1f} mm, {seen_words}, {dose:.1f} mGy·cm ({teaching_estimate})</source>
             <translation type="unfinished">scan de contrôle {scan_number} à {time:.1f} s : coupes : {order_slices} de {order_slice_mm:g} mm autour de z {order_centre_mm:.1f} mm, {seen_words}, {dose:.1f} mGy·cm ({teaching_estimate})</translation>
+        </message>
+        <message>
+            <source>{told}; {chosen}</source>
+            <translation>{told} ; {chosen}</translation>
+        </message>
+        <message>
+            <source>every {mm:g} mm</source>
+            <translation>tous les {mm:g} mm</translation>
+        </message>
+        <message>
+            <source>gantry tilted by {deg:g}°</source>
+            <translation>statif incliné de {deg:g}°</translation>
+        </message>
+        <message>
+            <source>{ma:g} mA</source>
+            <translation>{ma:g} mA</translation>
+        </message>
+        <message>
+            <source>stylet out</source>
+            <translation>mandrin retiré</translation>
+        </message>
+        <message>
+            <source>out of the room</source>
+            <translation>hors de la salle</translation>
+        </message>
+        <message>
+            <source>hand {usv:.1f} µSv (teaching estimate)</source>
+            <translation>main {usv:.1f} µSv (estimation pour l’enseignement)</translation>
+        </message>
+        <message>
+            <source>shows the shaft, the tip lies in the gap between two slices</source>
+            <translation>montre la tige, la pointe se trouve dans l’intervalle entre deux coupes</translation>
+        </message>
+        <message>
+            <source>you are out of the room for a control scan: back in {left:.0f} s</source>
+            <translation>vous êtes hors de la salle pour un contrôle : de retour dans {left:.0f} s</translation>
         </message>
         <message>
             <source>no control scan: the needle's depth is not measured now, so that a picture would be a guess; nothing was counted. Let both cameras see the marker and press again</source>
@@ -6858,6 +6934,14 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         <message>
             <source>the tip moved by {spread_mm:.1f} mm while it was measured: rest it in the mark and hold still for a second</source>
             <translation type="unfinished">la pointe a bougé de {spread_mm:.1f} mm pendant la mesure : posez-la dans le repère et ne bougez plus pendant une seconde</translation>
+        </message>
+        <message>
+            <source>the student leaves the room</source>
+            <translation>l’étudiant quitte la salle</translation>
+        </message>
+        <message>
+            <source>the student is back at the patient</source>
+            <translation>l’étudiant est de retour auprès du patient</translation>
         </message>
         <message>
             <source>no complication can be answered now: begin an attempt at an exercise in which some can happen</source>
@@ -11438,6 +11522,10 @@ part</translation>
             <translation type="unfinished">● pointe</translation>
         </message>
         <message>
+            <source>◆ tip in a gap</source>
+            <translation>◆ pointe dans un intervalle</translation>
+        </message>
+        <message>
             <source>▲ shaft only</source>
             <translation type="unfinished">▲ tige seule</translation>
         </message>
@@ -13539,6 +13627,10 @@ hors du plan {c:+.1f}° (trajectoire {d:+.1f}°)</translation>
             <translation type="unfinished">Met aussitôt la force à zéro ; l’essai est enregistré mais non noté</translation>
         </message>
         <message>
+            <source>Out of the room: {s:.0f} s</source>
+            <translation>Hors de la salle : {s:.0f} s</translation>
+        </message>
+        <message>
             <source>Arm the robot and begin recording (F5)</source>
             <translation type="unfinished">Armer le robot et commencer l’enregistrement (F5)</translation>
         </message>
@@ -13799,6 +13891,10 @@ réglable</translation>
             <translation type="unfinished">Scans : {n} · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
+            <source>Scans: {n} · {dose:.1f} mGy·cm · hand {hand:.0f} µSv ({estimate})</source>
+            <translation>Contrôles : {n} · {dose:.1f} mGy·cm · main {hand:.0f} µSv ({estimate})</translation>
+        </message>
+        <message>
             <source>Middle of the scan along the patient (z of LPS): + is headwards</source>
             <translation type="unfinished">Milieu du scan le long du patient (z en LPS) : + est vers la tête</translation>
         </message>
@@ -13831,8 +13927,84 @@ réglable</translation>
             <translation type="unfinished">Scan de contrôle</translation>
         </message>
         <message>
+            <source>Mark the entry</source>
+            <translation>Marquer l’entrée</translation>
+        </message>
+        <message>
+            <source>Point the needle</source>
+            <translation>Orienter l’aiguille</translation>
+        </message>
+        <message>
             <source>Table</source>
             <translation type="unfinished">Table</translation>
+        </message>
+        <message>
+            <source>Table position at which the laser meets the entry (z)</source>
+            <translation>Position de la table à laquelle le laser rencontre l’entrée (z)</translation>
+        </message>
+        <message>
+            <source>Grid line</source>
+            <translation>Ligne de la grille</translation>
+        </message>
+        <message>
+            <source>From the patient's right; each fifth is thick</source>
+            <translation>Depuis la droite du patient ; une sur cinq est épaisse</translation>
+        </message>
+        <message>
+            <source>Along the skin, + towards the next number</source>
+            <translation>Le long de la peau, + vers le numéro suivant</translation>
+        </message>
+        <message>
+            <source>Makes this place the entry: the patient is placed so that it lies on the fulcrum; how far it is from the entry that you planned is scored</source>
+            <translation>Fait de cet endroit l’entrée : le patient est placé de sorte qu’il se trouve sur le pivot ; sa distance à l’entrée que vous avez planifiée est notée</translation>
+        </message>
+        <message>
+            <source>In the slice</source>
+            <translation>Dans la coupe</translation>
+        </message>
+        <message>
+            <source>From straight down, + towards higher numbers</source>
+            <translation>Depuis la verticale, + vers les numéros plus grands</translation>
+        </message>
+        <message>
+            <source>Out of it</source>
+            <translation>Hors d’elle</translation>
+        </message>
+        <message>
+            <source>Cranio-caudal: + towards the head</source>
+            <translation>Crânio-caudal : + vers la tête</translation>
+        </message>
+        <message>
+            <source>°</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Lets the simulated hand point the needle by these two angles, as by a protractor; a needle in your own hand you turn yourself</source>
+            <translation>Laisse la main simulée orienter l’aiguille selon ces deux angles, comme avec un rapporteur ; une aiguille dans votre propre main, vous la tournez vous-même</translation>
+        </message>
+        <message>
+            <source>Entry on the skin</source>
+            <translation>Entrée sur la peau</translation>
+        </message>
+        <message>
+            <source>Plan the entry on the CT first: the mark is compared with it</source>
+            <translation>Planifiez d’abord l’entrée sur le scanner : la marque lui est comparée</translation>
+        </message>
+        <message>
+            <source>Plan the entry on the CT first</source>
+            <translation>Planifiez d’abord l’entrée sur le scanner</translation>
+        </message>
+        <message>
+            <source>Needle: {plane:+.1f}° in the slice (+ towards higher numbers), {head:+.1f}° out of it (+ towards the head)</source>
+            <translation>Aiguille : {plane:+.1f}° dans la coupe (+ vers les numéros plus grands), {head:+.1f}° hors d’elle (+ vers la tête)</translation>
+        </message>
+        <message>
+            <source>Room between hub and bore: {mm:.0f} mm</source>
+            <translation>Place entre l’embase et l’anneau : {mm:.0f} mm</translation>
+        </message>
+        <message>
+            <source>Marked at table {table:.1f} mm, line {line} {offset:+.1f} mm</source>
+            <translation>Marquée à la table {table:.1f} mm, ligne {line} {offset:+.1f} mm</translation>
         </message>
         <message>
             <source>All slices</source>
@@ -19096,6 +19268,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Dose (estimation pédagogique)</translation>
         </message>
         <message>
+            <source>Dose of the hand (teaching estimate)</source>
+            <translation>Dose à la main (estimation pour l’enseignement)</translation>
+        </message>
+        <message>
             <source>Economy of motion</source>
             <translation type="unfinished">Économie de mouvement</translation>
         </message>
@@ -19258,6 +19434,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Lung, oblique twice between ribs</source>
             <translation type="unfinished">Poumon, double oblique entre les côtes</translation>
+        </message>
+        <message>
+            <source>Marked entry off the planned one</source>
+            <translation>Entrée marquée à côté de celle planifiée</translation>
         </message>
         <message>
             <source>Mask, then the centroid of the covered shares</source>
@@ -23078,6 +23258,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>ni pneumothorax ni saignement ne peut survenir : omettez complications</translation>
         </message>
         <message>
+            <source>lines: {lines}: an odd number has a line in the middle</source>
+            <translation>lines : {lines} : un nombre impair a une ligne au milieu</translation>
+        </message>
+        <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
             <translation type="unfinished" />
         </message>
@@ -23672,6 +23856,82 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
             <translation type="unfinished" />
+        </message>
+        <message>
+            <source>grid line {line}: there are 1 to {lines}</source>
+            <translation>ligne de la grille {line} : il y en a de 1 à {lines}</translation>
+        </message>
+        <message>
+            <source>the grid does not reach there</source>
+            <translation>la grille ne va pas jusque-là</translation>
+        </message>
+        <message>
+            <source>there is no skin under the grid {mm:.0f} mm beside its middle</source>
+            <translation>il n’y a pas de peau sous la grille à {mm:.0f} mm de son milieu</translation>
+        </message>
+        <message>
+            <source>there is no skin under the grid's middle line</source>
+            <translation>il n’y a pas de peau sous la ligne du milieu de la grille</translation>
+        </message>
+        <message>
+            <source>entry marked at table {table:.1f} mm, line {line} {offset:+.1f} mm: {error:.1f} mm on the skin from the planned entry</source>
+            <translation>entrée marquée à la table {table:.1f} mm, ligne {line} {offset:+.1f} mm : à {error:.1f} mm sur la peau de l’entrée planifiée</translation>
+        </message>
+        <message>
+            <source>no entry was marked with the grid</source>
+            <translation>aucune entrée n’a été marquée avec la grille</translation>
+        </message>
+        <message>
+            <source>no control scan says a dose of the hand: the exercise does not ask for it</source>
+            <translation>aucun contrôle n’indique de dose à la main : l’exercice ne la demande pas</translation>
+        </message>
+        <message>
+            <source>Leave the room</source>
+            <translation>Quitter la salle</translation>
+        </message>
+        <message>
+            <source>Current</source>
+            <translation>Courant</translation>
+        </message>
+        <message>
+            <source>Gantry</source>
+            <translation>Statif</translation>
+        </message>
+        <message>
+            <source>{ma} mA</source>
+            <translation>{ma} mA</translation>
+        </message>
+        <message>
+            <source>Leaving and coming back take {seconds:g} s of the attempt; who stays saves them, and his hand gets its share of the scattered radiation (a teaching estimate)</source>
+            <translation>Sortir et revenir prennent {seconds:g} s de l’essai ; qui reste les économise, et sa main reçoit sa part du rayonnement diffusé (une estimation pour l’enseignement)</translation>
+        </message>
+        <message>
+            <source>leaving</source>
+            <translation>sort</translation>
+        </message>
+        <message>
+            <source>coming back</source>
+            <translation>revient</translation>
+        </message>
+        <message>
+            <source>{where}: {left:.0f} s</source>
+            <translation>{where} : {left:.0f} s</translation>
+        </message>
+        <message>
+            <source>Tube current</source>
+            <translation>Courant du tube</translation>
+        </message>
+        <message>
+            <source>Noise of the picture goes as one over the square root of the current, the dose goes as the current</source>
+            <translation>Le bruit de l’image varie comme l’inverse de la racine du courant, la dose comme le courant</translation>
+        </message>
+        <message>
+            <source>Gantry tilt</source>
+            <translation>Inclinaison du statif</translation>
+        </message>
+        <message>
+            <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
+            <translation>Inclinaison du statif : + penche l’avant des coupes vers la tête. Les coupes, et ce qui y est de l’aiguille, suivent</translation>
         </message>
     </context>
 </TS>

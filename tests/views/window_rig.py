@@ -67,6 +67,9 @@ class FakeTrainer:
     def abort(self, reason=""):
         self.state = State.ABORTED
 
+    def mark_entry(self, mark):
+        self.marked = mark
+
     def heartbeat(self): ...
     def assistance(self, value): ...
     def take_over(self, hand):

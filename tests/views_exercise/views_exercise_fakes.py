@@ -12,6 +12,7 @@ from views_exercise_attempts import placed_plan
 from app.core.arrays import FloatArray
 from app.core.events import Event, EventQueue
 from app.core.state_vector import INDEX, empty_state
+from app.exercises.guidance import ScanChoice
 from app.imaging.scan_order import ScanOrder
 from app.mechanisms.profile import load_profile
 from app.planning.placement import PlacedPlan
@@ -110,9 +111,13 @@ class FakeTrainer:
         self.result = SimpleNamespace(state=State.ABORTED)
         return self.result
 
-    def scan(self, order: ScanOrder | None = None) -> int:
-        self.calls.append(("scan",) if order is None else ("scan", order))
+    def scan(self, order: ScanOrder | None = None, choice: ScanChoice | None = None) -> int:
+        chosen = () if choice in (None, ScanChoice()) else (choice,)
+        self.calls.append(("scan",) if order is None else ("scan", order, *chosen))
         return 1
+
+    def mark_entry(self, mark: object) -> None:
+        self.calls.append(("mark_entry", mark))
 
     def arm(self) -> None:
         self.calls.append(("arm",))

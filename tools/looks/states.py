@@ -112,7 +112,7 @@ def scan(gallery: Gallery) -> None:
     gallery.insert(0.75)
     window, panel = gallery.window, gallery.window.workspace.exercise_panel
     gallery.keep("attempt-scans-only")
-    panel.scan.set_table(float(window.workspace.viewing.cursor_mm[2]))
+    panel.scan.table.setValue(float(window.workspace.viewing.cursor_mm[2]))
     panel.buttons.scan_requested.emit()
     wait(lambda: window.workspace.scan_view.scan is not None)
     gallery.trainer.step()

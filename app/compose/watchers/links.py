@@ -326,13 +326,8 @@ class LiveBoard:
             self._picture(scan, watched, watched.volume)
 
     def _picture(self, scan: ControlScan, watched: _WatchedRun, volume: Volume) -> None:
-        from app.imaging.fallen_lung import changed_ct
-        from app.imaging.scanned import scan_image  # compiled parts: only who scans waits for them
-
-        field = watched.run.rig.trainer.tissues
-        volume = changed_ct(volume, field, scan.inside, scan.tissue_range_mm)
         wall = self._clock.now() - watched.run.rig.trainer.time + scan.time
-        picture = scan_image(volume, scan.order, scan.needle, scan.streak, scan.shift_mm)
+        picture = scan.picture(volume, watched.run.rig.trainer.tissues)
         told = LiveScan(scan.number, wall, picture.hu, picture.affine_mm)
         if self._watched is watched:
             self._scan = told

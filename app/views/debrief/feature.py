@@ -600,16 +600,13 @@ class ScanPictures(QObject):
 
         def make(progress: Progress) -> Volume:
             with turn(progress, "app.imaging.reading", "app.imaging.scanned"):
-                from app.imaging.fallen_lung import changed_ct
                 from app.imaging.field import from_bytes
-                from app.imaging.reading import read_again  # compiled parts
-                from app.imaging.scanned import scan_image
+                from app.imaging.reading import read_again
             ct = volume
             if recipe is not None and recipe != volume.recipe:  # the scan was of a mended one
                 ct = read_again(volume.series, recipe, progress)
-            if scan.inside is not None and tissue:
-                ct = changed_ct(ct, from_bytes(tissue), scan.inside, scan.tissue_range_mm)
-            return scan_image(ct, scan.order, scan.needle, scan.streak, scan.shift_mm)
+            field = from_bytes(tissue) if scan.inside is not None and tissue else None
+            return scan.picture(ct, field)
 
         run_in_background(
             self,

@@ -136,8 +136,11 @@ def cells(scan: ControlScan, shown: float) -> tuple[str, ...]:
         low=axis_words(2, low),
         high=axis_words(2, high),
     )
+    if chosen := translated(scan.chosen):
+        slices = f"{slices}, {chosen}"
     shows = {
         Seen.TIP: tr("● tip"),
+        Seen.BETWEEN: tr("◆ tip in a gap"),
         Seen.SHAFT: tr("▲ shaft only"),
         Seen.NOTHING: tr("✖ no needle"),
     }

@@ -1,5 +1,6 @@
 """The view `bullseye`: pad, depth bar, corrections in words; and the simulated hand."""
 
+from dataclasses import replace
 from enum import IntEnum, auto
 from typing import Any, Final
 
@@ -20,6 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.arrays import FloatArray
 from app.planning.off_path import Offset
 from app.session.pad.geometry import PathFrame
 from app.session.pad.hand import HandPose, PadHand
@@ -440,6 +442,12 @@ class Bullseye(QWidget):
         if self._scene is not None and self._interactive:
             self._hand = self._scene.hand(pose)
             self._intent.start()
+
+    def point(self, direction: FloatArray) -> None:
+        """Let the simulated hand point the needle, in world, unit, shape (3,): its depth stays."""
+        if self._scene is not None and self._hand is not None and self._interactive:
+            self.take_hand(replace(self._hand.pose, direction=direction))
+            self._moving.start()
 
     def let_go(self) -> None:
         """Move the hand no further with what is held now; pressed anew it moves again."""

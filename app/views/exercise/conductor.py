@@ -33,6 +33,7 @@ from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
 from app.views.exercise.ablation_view import AblationView
 from app.views.exercise.controller import ExerciseController
+from app.views.exercise.entry_marking import EntryMarking
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.runs import Runs
 from app.views.exercise.scan_source import ScanSource
@@ -204,6 +205,16 @@ class Conductor(QObject):
         self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
         self._ablation = AblationView(workspace)
         self.scans = ScanSource(self.controller, workspace, lambda: self.patient, self)
+        self.marking = EntryMarking(
+            workspace.exercise_panel.entry,
+            editor,
+            tuple(workspace.panes),
+            lambda: self.patient,
+            lambda: self.exercise,
+            lambda: workspace.exercise_panel.scan.choices.tilt_deg,
+            self,
+        )
+        workspace.exercise_panel.scan.choices.changed.connect(self.marking.show_words)
         self.controller.rester.seen = self._is_seen
         self._connect()
 
@@ -240,6 +251,9 @@ class Conductor(QObject):
         self.controller.attached.connect(self._workspace.room.end)
         self.patient_changed.connect(self._workspace.scan_view.clear)
         self.scans.failed.connect(self.failed)
+        self.marking.failed.connect(self.failed)
+        self.controller.beginning.connect(self._tell_mark)
+        self._workspace.exercise_panel.entry.dialled.connect(self._dial)
 
     @property
     def profile(self) -> DeviceProfile | None:
@@ -527,6 +541,18 @@ class Conductor(QObject):
         ct = CtFacts.of_volume(volume)
         self.runs.want(RunSetup(self.exercise, placed, ct, robot, cameras, volume, shows))
 
+    def _dial(self) -> None:
+        """Let the simulated hand point the needle as it is dialled."""
+        run, direction = self.controller.run, self.marking.direction()
+        if run is not None and direction is not None:
+            self.views.bullseye.point(run.placed.T_world_patient.rotate(direction))
+
+    def _tell_mark(self) -> None:
+        """Tell the run where the entry was marked, before an attempt begins."""
+        run = self.controller.run
+        if run is not None and self.marking.mark is not None:
+            run.trainer.mark_entry(self.marking.mark)
+
     def why_not_start(self) -> str:
         """Say what keeps an attempt from beginning that does not go by itself; empty if nothing."""
         run = self.runs.run
@@ -590,6 +616,8 @@ class Conductor(QObject):
         running = snapshot.state in RUNNING
         if running != self._editor.locked:
             self._editor.set_locked(running)
+            self.marking.look()
+            self._workspace.exercise_panel.entry.set_dials(running)
             if not running:
                 self._workspace.room.end()
             self.views_changed.emit()

@@ -172,8 +172,10 @@ class ExerciseDisplay:
         acts = commands and snapshot.state not in (State.WITHDRAWING, State.PAUSED)
         views.panel.patient.show_patient(snapshot.complications, commands)
         electrodes, other = of_electrodes(snapshot.procedure)
-        views.panel.procedure.show_procedure(other, acts, inside)
+        steps = None if other is None or not other.part.has_steps else other
+        views.panel.procedure.show_procedure(steps, acts, inside)
         views.panel.ablation.show_ablation(electrodes, acts, inside)
+        views.panel.show_out(snapshot.out_of_room)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, snapshot.ready, hidden
@@ -560,7 +562,10 @@ class ExerciseController(QObject):
         if run is not None:
             try:
                 live = run.shown.live
-                run.trainer.scan(about_tip(run) if live else self._views.panel.scan.order)
+                if live:
+                    run.trainer.scan(about_tip(run))
+                else:
+                    run.trainer.scan(self._views.panel.scan.order, self._views.panel.scan.choice)
             except AcusError as error:
                 self._fail(translated(error))
                 return

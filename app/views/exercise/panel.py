@@ -33,6 +33,7 @@ from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.complication_panel import ComplicationPanel
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
+from app.views.exercise.entry_marking import EntryMarkPanel
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.procedure_panel import ProcedurePanel
 from app.views.exercise.readouts import AttemptReadouts
@@ -68,7 +69,7 @@ class AttemptActions(QWidget):
             tr("Set the force to zero at once; the attempt is saved but not scored"),
         )
         self._keys: list[tuple[QShortcut, QPushButton]] = []
-        self._ends = False
+        self._ends = self._out = False
         self._state: tuple[State | None, bool, str] = (None, False, "")
         self._escape = HoldKey(Qt.Key.Key_Escape, self)
         self._escape.held.connect(self.abort.click)  # a disabled button ignores it
@@ -102,7 +103,7 @@ class AttemptActions(QWidget):
         self.start.setToolTip(literal(reason or _starts()))
         for button, legal in (
             (self.start, can_start and not self._ends),
-            (self.scan, running and state is not State.WITHDRAWING),
+            (self.scan, running and state is not State.WITHDRAWING and not self._out),
             (self.end, running),
             (self.abort, running),
         ):
@@ -114,6 +115,16 @@ class AttemptActions(QWidget):
         """Take no order while an attempt that was ended is being scored and written."""
         self._ends = ends
         self.show_state(*self._state)
+
+    def set_out(self, left: float | None) -> None:
+        """Take no order for a scan while the student is out of the room, but say how long [s]."""
+        out = left is not None
+        words = tr("Control scan (S)") if left is None else tr("Out of the room: {s:.0f} s", s=left)
+        if words != self.scan.text():
+            self.scan.setText(words)
+        if out is not self._out:
+            self._out = out
+            self.show_state(*self._state)
 
     def _lay_out(self) -> None:
         self._grid = grid = QGridLayout(self)
@@ -390,6 +401,7 @@ class AttemptTools(QWidget):
         self.patient = ComplicationPanel(self)
         self.ablation = AblationPanel(self)
         self.scan = ScanPanel(self)
+        self.entry = EntryMarkPanel(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(theme.SPACING - 2)
@@ -398,6 +410,7 @@ class AttemptTools(QWidget):
             self.procedure,
             self.patient,
             self.ablation,
+            self.entry,
             self.buttons,
             self.enable,
             self.breath,
@@ -459,6 +472,7 @@ class ExercisePanel(QWidget):
         self.breath, self.bevel, self.touch = tools.breath, tools.bevel, tools.touch
         self.procedure, self.patient = tools.procedure, tools.patient
         self.scan, self.ablation = tools.scan, tools.ablation
+        self.entry = tools.entry
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -552,6 +566,11 @@ class ExercisePanel(QWidget):
         self.readouts.set_telling(self._telling)
         self._tell_rail()
         self.buttons.set_pedal(guidance is not None)
+
+    def show_out(self, left: float | None) -> None:
+        """Show how long the student is out of the room yet [s]; None while he is in it."""
+        self.scan.choices.show_out(left)
+        self.buttons.set_out(left)
 
     def set_brief(self, brief: bool) -> None:
         """Show what lies between beginning and end of an attempt as one step, or each by itself."""

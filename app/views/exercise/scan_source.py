@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Final
 
+import numpy as np
 from PySide6.QtCore import QObject, QPointF, Signal
 from PySide6.QtGui import QPainter
 
 from app.core.events import Event
 from app.core.progress import Progress
-from app.imaging.scan_order import ScanOrder
+from app.imaging.scan_order import ScanOrder, middle_of
 from app.imaging.volume import Volume
 from app.planning.patient import Patient
 from app.session.attempt_clock import AttemptClock
@@ -51,7 +52,7 @@ class ScanRange:
             else [
                 line
                 for z in self._order.range_mm
-                for line in [_cut(plane, index, z)]
+                for line in [_cut(plane, index, self._order, z)]
                 if line is not None
             ]
         )
@@ -69,11 +70,17 @@ def attach(pane: SlicePane) -> ScanRange:
     return layer
 
 
-def _cut(plane: SlicePlane, index: float, z_mm: float) -> tuple[QPointF, QPointF] | None:
-    """Return the ends of the line in which an axial plane at `z_mm` cuts a slice, on its edges."""
+def _cut(
+    plane: SlicePlane, index: float, order: ScanOrder, z_mm: float
+) -> tuple[QPointF, QPointF] | None:
+    """Return the ends of the line in which a face of a scan cuts a slice, on its edges.
+
+    `z_mm` is the face's place across the gantry.
+    """
     width, height = plane.extent_mm
     corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
-    heights = [float(plane.lps_mm(x, y, index)[2]) - z_mm for x, y in corners]
+    places = [order.in_gantry(np.asarray(plane.lps_mm(x, y, index))) for x, y in corners]
+    heights = [float(place[2]) - z_mm for place in places]
     ends = []
     for i, (x, y) in enumerate(corners):
         (u, v), a, b = corners[(i + 1) % 4], heights[i], heights[(i + 1) % 4]
@@ -138,7 +145,7 @@ class ScanSource(QObject):
         controller.attached.connect(self._attached)
         self._panel.order_changed.connect(self._show_range)
         self._panel.crosshair_wanted.connect(
-            lambda: self._panel.set_table(float(self._workspace.viewing.cursor_mm[2]))
+            lambda: self._panel.go_to(np.asarray(self._workspace.viewing.cursor_mm))
         )
 
     @property
@@ -149,6 +156,9 @@ class ScanSource(QObject):
     def _attached(self) -> None:
         run = self._controller.run
         scanning = run is not None and not run.shown.live
+        patient = self._patient()
+        if patient is not None:
+            self._panel.set_isocentre(middle_of(patient.volume))
         self._show_range()
         if not scanning:
             self._view.clear()
@@ -189,14 +199,10 @@ class ScanSource(QObject):
             return
         self._busy, self._waiting = True, False
         self._panel.set_busy(True)
-        volume, streak, field = patient.volume, scan.streak, run.trainer.tissues
+        volume, field = patient.volume, run.trainer.tissues
 
         def make(_: Progress) -> Volume:
-            from app.imaging.fallen_lung import changed_ct
-            from app.imaging.scanned import scan_image  # compiled parts: beside the window
-
-            ct = changed_ct(volume, field, scan.inside, scan.tissue_range_mm)
-            return scan_image(ct, scan.order, scan.needle, streak, scan.shift_mm)
+            return scan.picture(volume, field)
 
         run_in_background(self, make, lambda picture: self._show(picture, scan), self._fail)
 

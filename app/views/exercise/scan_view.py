@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QResizeEvent
@@ -19,18 +21,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.exercises.guidance import GuidancePart
-from app.imaging.scan_order import FEWEST, MOST, ScanOrder
+from app.core.arrays import FloatArray
+from app.exercises.guidance import GuidancePart, ScanChoice
+from app.imaging.scan_order import FEWEST, MOST, ScanOrder, Seen
 from app.imaging.volume import Volume
 from app.imaging.window import to_grey
 from app.planning.plan import Plan
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
 from app.views.exercise.readouts import clock_text
+from app.views.exercise.scan_choices import ScanChoices
 from app.views.exercise.scan_wall import ScanPicture, ScanWall
 from app.views.kit import theme
 from app.views.kit.coordinates import axis_words
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Viewing
@@ -53,7 +57,8 @@ class ScanPanel(QWidget):
         super().__init__(parent)
         self._guidance = GuidancePart()
         self._plan: Plan | None = None
-        self._dose = 0.0
+        self._dose, self._hand, self._pivot = 0.0, 0.0, 0.0
+        self.choices = ScanChoices(self)
         self.table, self.slices = QDoubleSpinBox(self), QSpinBox(self)
         self.feet, self.head = self._step("−", -1), self._step("+", 1)
         self.here = QToolButton(self)
@@ -72,25 +77,37 @@ class ScanPanel(QWidget):
         if plan == self._plan and guidance == self._guidance:
             return
         self._guidance, self._plan = guidance, plan
+        self.choices.set_guidance(guidance)
         middle = 0.5 * float(plan.entry_mm[2] + plan.target_mm[2])
         with QSignalBlocker(self.table), QSignalBlocker(self.slices):
             self.table.setValue(round(middle))
-            self.table.setSingleStep(guidance.slice_mm)
+            self.table.setSingleStep(guidance.order(0.0).step_mm)
             self.slices.setValue(guidance.slices)
         self._show_order()
 
     @property
     def order(self) -> ScanOrder:
         """The scan that the pedal takes."""
-        return ScanOrder(self.table.value(), self.slices.value(), self._guidance.slice_mm)
+        like = self._guidance.order(self.table.value(), self._pivot)
+        return replace(like, slices=self.slices.value(), tilt_deg=self.choices.tilt_deg)
 
-    def set_table(self, centre_mm: float) -> None:
-        """Move the table so that this place along the patient is in the middle [mm]."""
-        self.table.setValue(centre_mm)
+    @property
+    def choice(self) -> ScanChoice:
+        """Return what is chosen for it beside its slices."""
+        return self.choices.choice
+
+    def go_to(self, place_mm: FloatArray) -> None:
+        """Move the table so that the middle slice passes through a place, LPS [mm], shape (3,)."""
+        lean = np.tan(np.radians(self.choices.tilt_deg))
+        self.table.setValue(float(place_mm[2] + lean * (place_mm[1] - self._pivot)))
+
+    def set_isocentre(self, place_mm: FloatArray) -> None:
+        """Say where on the patient the gantry's axis lies, LPS [mm], shape (3,)."""
+        self._pivot = float(place_mm[1])
 
     def begin(self) -> None:
         """Begin to count anew."""
-        self._dose = 0.0
+        self._dose, self._hand = 0.0, 0.0
         self._show_count(0)
 
     def forget(self) -> None:
@@ -104,6 +121,7 @@ class ScanPanel(QWidget):
     def add(self, scan: ControlScan) -> None:
         """Count a scan that was taken."""
         self._dose += scan.dose
+        self._hand += scan.hand_usv or 0.0
         self._show_count(scan.number)
 
     def set_busy(self, busy: bool) -> None:
@@ -120,14 +138,22 @@ class ScanPanel(QWidget):
         self.order_changed.emit()
 
     def _show_count(self, number: int) -> None:
-        self.count.setText(
-            tr(
+        if self._guidance.hand_dose(ScanChoice()) is None:
+            told = tr(
                 "Scans: {n} · {dose:.1f} mGy·cm ({estimate})",
                 n=number,
                 dose=self._dose,
                 estimate=tr(TEACHING_ESTIMATE),
             )
-        )
+        else:
+            told = tr(
+                "Scans: {n} · {dose:.1f} mGy·cm · hand {hand:.0f} µSv ({estimate})",
+                n=number,
+                dose=self._dose,
+                hand=self._hand,
+                estimate=tr(TEACHING_ESTIMATE),
+            )
+        self.count.setText(told)
 
     def _step(self, text: str, way: int) -> QToolButton:
         button = QToolButton(self)
@@ -171,6 +197,7 @@ class ScanPanel(QWidget):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.table.valueChanged.connect(lambda _: self._show_order())
         self.slices.valueChanged.connect(lambda _: self._show_order())
+        self.choices.changed.connect(self._show_order)
         self.here.clicked.connect(self.crosshair_wanted)
         self.set_busy(False)
         self._show_count(0)
@@ -200,8 +227,9 @@ class ScanPanel(QWidget):
         grid.addWidget(PlainLabel(tr("Table"), self), 1, 0)
         grid.addWidget(PlainLabel(tr("Slices"), self), 3, 0)
         grid.addWidget(self.slices, 3, 1)
-        grid.addWidget(self.count, 5, 0, 1, 3)
-        grid.addWidget(self.progress, 6, 0, 1, 3)
+        grid.addWidget(self.choices, 5, 0, 1, 3)
+        grid.addWidget(self.count, 6, 0, 1, 3)
+        grid.addWidget(self.progress, 7, 0, 1, 3)
         grid.setColumnStretch(1, 1)
         grid.addLayout(table, 1, 1)
         self.set_narrow(False)
@@ -277,7 +305,7 @@ class ScanView(QWidget):
         self._go_to(picture.size[2] // 2)
         self.wall.set_window(self.viewing.window)
         self.wall.look_at(self._planning.draft)
-        self.wall.add(ScanPicture(picture, caption(scan, shown)))
+        self.wall.add(ScanPicture(picture, caption(scan, shown), scan.order), _nearest_tip(scan))
         self.show_all()
         self.pane.canvas.fit()
         self.arrived.emit()
@@ -310,12 +338,14 @@ class ScanView(QWidget):
 
     def _make_thumbs(self, picture: Volume) -> None:
         self._drop_thumbs()
+        if self.scan is None:
+            return
         for number in reversed(range(picture.size[2])):  # the head is up
             button = QToolButton(self)
             button.setCheckable(True)
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-            button.setText(axis_words(2, float(picture.lps_mm((0, 0, number))[2])))
+            button.setText(axis_words(2, float(self.scan.order.middles_mm[number])))
             button.setStyleSheet(f"font-size: {theme.SMALL_PX}px; padding: 1px;")
             self._thumbs.addButton(button, number)
             self._strip.insertWidget(self._strip.count() - 1, button)
@@ -388,10 +418,18 @@ class ScanView(QWidget):
         self._stack.addWidget(self.wall)
 
 
+def _nearest_tip(scan: ControlScan) -> int | None:
+    """Return the number of the slice nearest to a tip that the scan shows; None for no tip."""
+    if scan.seen not in (Seen.TIP, Seen.BETWEEN):
+        return None
+    tip = float(scan.needle.seen_from(scan.order).tip_mm[2])
+    return int(np.argmin(np.abs(scan.order.middles_mm - tip)))
+
+
 def caption(scan: ControlScan, shown: float) -> str:
     """Say which scan it is; what it shows of the needle is for the eyes."""
     order = scan.order
-    return tr(
+    told = tr(
         "Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})",
         n=scan.number,
         time=clock_text(shown),
@@ -400,3 +438,5 @@ def caption(scan: ControlScan, shown: float) -> str:
         dose=scan.dose,
         estimate=tr(TEACHING_ESTIMATE),
     )
+    chosen = translated(scan.chosen)
+    return f"{told} · {chosen}" if chosen else told

@@ -26,6 +26,7 @@ from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
 from app.imaging.orthogonal import letters
+from app.imaging.scan_order import ScanOrder
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel, to_grey
 from app.planning.draft import DraftPlan
@@ -58,13 +59,17 @@ class ScanPicture:
     Attributes:
         picture: of its slices.
         caption: which it is, in words.
+        order: which they are; None for straight ones, which say it themselves.
     """
 
     picture: Volume
     caption: str
+    order: ScanOrder | None = None
 
     def heights(self) -> FloatArray:
-        """Return the slices' places along the patient [mm], shape (n,)."""
+        """Return the slices' places along the patient [mm], shape (n,); of the table if tilted."""
+        if self.order is not None:
+            return self.order.middles_mm
         number = self.picture.size[2]
         return np.array([self.picture.lps_mm((0, 0, k))[2] for k in range(number)])
 
@@ -120,8 +125,14 @@ class ScanTile(QWidget):
         self._image = borrowed.copy()
         first = volume.lps_mm((0, 0, number))
         right, down = volume.lps_mm((1, 0, number)) - first, volume.lps_mm((0, 1, number)) - first
+        if shot.order is not None:  # a tilted slice is looked at from across
+            first, right, down = (
+                shot.order.in_gantry(first),
+                right,
+                np.array([0.0, np.linalg.norm(down), 0.0]),
+            )
         self._to_mm = QTransform(right[0], right[1], down[0], down[1], first[0], first[1])
-        self.words = axis_words(2, float(first[2]))
+        self.words = axis_words(2, float(shot.heights()[number]))
         self.setAccessibleName(self.words)
         self._edges.title.set_lines((self.words, Worth.TITLE))
         self._edges.window.set_lines(window_line(window))
@@ -209,10 +220,16 @@ class ScanWall(QWidget):
         self._shots, self._first = [], 0
         self._draw()
 
-    def add(self, shot: ScanPicture) -> None:
-        """Take a new scan above the last one, its middle slices in sight."""
+    def add(self, shot: ScanPicture, middle: int | None = None) -> None:
+        """Take a new scan above the last one, its middle slices in sight.
+
+        `middle` is the number of the slice that is to stand in the middle, as far as there are
+        slices on either side of it.
+        """
         self._shots = [shot, *self._shots[:1]]
         self._first = (shot.picture.size[2] - self._columns()) // 2
+        if middle is not None:
+            self._first = middle - self._columns() // 2
         self._draw()
 
     def look_at(self, draft: DraftPlan) -> None:
