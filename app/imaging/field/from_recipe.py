@@ -16,7 +16,7 @@ from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.field import band
 from app.imaging.field.grid import FieldGrid
-from app.imaging.field.naming import LUNG_VESSEL, SMALL_VESSEL
+from app.imaging.field.naming import BRONCHUS, EMPHYSEMA, LUNG_VESSEL, SMALL_VESSEL
 from app.imaging.field.tissue_field import (
     NOBODYS,
     UNKNOWN,
@@ -28,6 +28,7 @@ from app.imaging.phantom import organs, skeleton, trunk
 from app.imaging.phantom.canvas import Canvas
 from app.imaging.phantom.grid import Box, Grid
 from app.imaging.phantom.lesion import make_patient
+from app.imaging.phantom.lobes import LOBES, lobes
 from app.imaging.phantom.patient import Patient
 from app.imaging.phantom.tubes import Tubes
 from app.imaging.phantom.vessels import Vasculature, vasculature
@@ -65,14 +66,25 @@ _KINDS: Final = (
     ("rib", TissueKind.BONE),
     ("", TissueKind.BONE),
 )
-TABLE: Final = (
+_LOBED: Final = (
+    *((name, TissueKind.LUNG) for name in LOBES),
+    (EMPHYSEMA, TissueKind.LUNG),
+    (BRONCHUS, TissueKind.LUNG),
+    ("intercostal artery", TissueKind.VESSEL),
+    ("intercostal vein", TissueKind.VESSEL),
+)
+"""What is known besides of patients who have lobes."""
+
+_ALL_KINDS: Final = (*_KINDS, *_LOBED)
+LOBED_TABLE: Final = (
     NOBODYS,
     *(
         FieldTissue(code, kind, name, 1.0, "recipe")
-        for code, (name, kind) in enumerate(_KINDS, start=1)
+        for code, (name, kind) in enumerate(_ALL_KINDS, start=1)
     ),
 )
-_CODE: Final = {name or kind.value: code for code, (name, kind) in enumerate(_KINDS, start=1)}
+TABLE: Final = LOBED_TABLE[: len(_KINDS) + 1]
+_CODE: Final = {name or kind.value: code for code, (name, kind) in enumerate(_ALL_KINDS, start=1)}
 _FAR_MM: Final = 6.0  # no boundary further off than this is of interest
 _ALL: Final[Box] = (slice(None), slice(None))
 
@@ -118,7 +130,12 @@ def field_of_recipe(seed: int, grid: FieldGrid, progress: Progress) -> TissueFie
 
     distance = band.distances(labels, (grid.spacing_mm,) * 3, crossing)
     progress.report(1.0, sentence("the tissue field is made"))
-    return TissueField(labels, distance, grid.affine_mm, TABLE)
+    return TissueField(labels, distance, grid.affine_mm, table_of(patient))
+
+
+def table_of(patient: Patient) -> tuple[FieldTissue, ...]:
+    """Return the table of a patient's field."""
+    return LOBED_TABLE if patient.has_lobes else TABLE
 
 
 class _Layers:
@@ -163,6 +180,8 @@ class _Layers:
             slice_.lay_tubes(small, SMALL_VESSEL)
         for name in ("vena cava", "portal vein", "hepatic vein", "artery"):
             slice_.lay_tubes(self._great[name], name)
+        slice_.lay_tubes(self._tubes.intercostal_veins, "intercostal vein")
+        slice_.lay_tubes(self._tubes.intercostal_arteries, "intercostal artery")
         self._lay_ball(slice_, self._patient.lesion_mm, self._patient.lesion_radius_mm, "lesion")
         self._lay_bones(slice_)
         return slice_.codes, slice_.level
@@ -170,8 +189,14 @@ class _Layers:
     def _lay_lungs(self, slice_: _Slice) -> None:
         at = slice_.canvas.place(_ALL)
         slice_.lay(np.maximum(np.abs(at.above - 2.3) - 1.4, at.wall), "diaphragm")
-        slice_.lay(organs.lungs(self._patient, at), "lung")
+        if self._patient.has_lobes:
+            for lobe, distance in lobes(self._patient, at).items():
+                slice_.lay(distance, lobe)
+            slice_.lay_tubes(self._tubes.emphysema, EMPHYSEMA)
+        else:
+            slice_.lay(organs.lungs(self._patient, at), "lung")
         slice_.lay_tubes(self._tubes.lung, LUNG_VESSEL)
+        slice_.lay_tubes(self._tubes.bronchi, BRONCHUS)
         if self._patient.nodule is not None:
             self._lay_ball(slice_, *self._patient.nodule, "lung nodule")
 

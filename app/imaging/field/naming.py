@@ -13,6 +13,12 @@ SMALL_VESSEL: Final = "small vessel"
 LUNG_VESSEL: Final = "lung vessel"
 """Name of vessels and airway walls within the lung."""
 
+EMPHYSEMA: Final = "emphysema"
+"""Name of destroyed lung."""
+
+BRONCHUS: Final = "bronchus"
+"""Name of airways within the lung, wall and lumen."""
+
 _WORDS: Final = {
     TissueKind.BONE: (
         "bone",
@@ -56,7 +62,7 @@ _WORDS: Final = {
         "oesophagus",
         "gas",
     ),
-    TissueKind.LUNG: ("lung", "trachea", "bronch"),
+    TissueKind.LUNG: ("lung", "trachea", "bronch", "emphysem"),
     TissueKind.MUSCLE: ("muscle", "diaphragm", "autochthon", "psoas", "gluteus", "cartilage"),
     TissueKind.FAT: ("fat", "adipose"),
     TissueKind.SKIN: ("skin",),

@@ -77,6 +77,16 @@ def _ours() -> dict[str, str]:
         sentence("contrast"),
         sentence("bone or contrast"),
     )
+    chest = (
+        sentence("right upper lobe"),
+        sentence("right middle lobe"),
+        sentence("right lower lobe"),
+        sentence("left upper lobe"),
+        sentence("left lower lobe"),
+        sentence("emphysema"),
+        sentence("intercostal artery"),
+        sentence("intercostal vein"),
+    )
     bones = (
         sentence("rib"),
         sentence("vertebra"),
@@ -85,4 +95,4 @@ def _ours() -> dict[str, str]:
         sentence("spine"),
         sentence("pelvis"),
     )
-    return {str(one): one for one in (*kinds, *soft, *hollow, *vessels, *bones)}
+    return {str(one): one for one in (*kinds, *soft, *hollow, *vessels, *chest, *bones)}

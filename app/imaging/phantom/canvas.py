@@ -5,11 +5,14 @@ from typing import Final
 import numpy as np
 
 from app.imaging.phantom import organs, skeleton, trunk
+from app.imaging.phantom.airways import WALL_SHARE
 from app.imaging.phantom.grid import ANGLES, Box, Grid
+from app.imaging.phantom.lobes import fissure_lines
 from app.imaging.phantom.shapes import Field, cover, smoothstep
 from app.imaging.phantom.tubes import Tubes, cover_discs
 
 AIR, FAT, MUSCLE, SKIN = -1000.0, -104.0, 60.0, 35.0
+EMPHYSEMA, FISSURE = -972.0, -350.0
 
 _ALL: Final[Box] = (slice(None), slice(None))
 
@@ -116,7 +119,16 @@ class Canvas:
         gradient = 60.0 * smoothstep((self.grid.y + 40.0) / 120.0)  # blood sinks to the back
         self.paint(self._diaphragm(at), MUSCLE)
         self.paint(distance, -885.0 + gradient + 14.0 * self.texture)
-        self.paint_tubes(self.grid.tubes.lung, 35.0)
+        tubes = self.grid.tubes
+        if self.patient.has_lobes:
+            self.paint_tubes(tubes.emphysema, EMPHYSEMA + 6.0 * self.texture)
+            self.paint(fissure_lines(self.patient, at), FISSURE)
+        self.paint_tubes(tubes.lung, 35.0)
+        if self.patient.has_lobes:
+            balls = tubes.bronchi.balls.copy()
+            self.paint_tubes(tubes.bronchi, 35.0)
+            balls[:, 3] *= 1.0 - WALL_SHARE
+            self.paint_tubes(Tubes(balls), AIR + 10.0)
         self._nodule()
 
     def _nodule(self) -> None:
@@ -194,6 +206,9 @@ class Canvas:
         self.paint_tubes(tubes.portal, 172.0)
         self.paint_tubes(tubes.hepatic, 165.0)
         self.paint_tubes(tubes.arteries, 178.0)
+        if self.patient.has_lobes:
+            self.paint_tubes(tubes.intercostal_veins, 128.0)
+            self.paint_tubes(tubes.intercostal_arteries, 178.0)
         radius = self.patient.lesion_radius_mm + 3.0
         x, y, z = self.patient.lesion_mm
         if abs(self.z - z) < radius:

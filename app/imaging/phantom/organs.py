@@ -49,7 +49,9 @@ def touching(at: Place, up_mm: float = 4.6) -> Place:
 def lungs(patient: Patient, at: Place) -> Field:
     """Both lungs, down into the recess between diaphragm and ribs."""
     inside = intersection(at.wall + 2.5, 3.0 - 0.8 * at.above, 4.0)
-    return np.maximum(np.maximum(inside, -mediastinum(at.x, at.y)), 4.0 - heart(patient, at))
+    both = np.maximum(np.maximum(inside, -mediastinum(at.x, at.y)), 4.0 - heart(patient, at))
+    # in front of the heart they touch in patients who have no lobes
+    return np.maximum(both, 3.0 - np.abs(at.x - 3.0)) if patient.has_lobes else both
 
 
 def heart(patient: Patient, at: Place) -> Field:

@@ -13,6 +13,9 @@ MODEL_TOP: Final = 300.0
 NODULES_FROM: Final = 1000
 """Patients of this seed and above have a nodule in the right lung besides; the others have none."""
 
+LOBES_FROM: Final = 2000
+"""Patients of this seed and above have fissures, bronchi, emphysema and intercostal vessels too."""
+
 
 @dataclass(frozen=True, slots=True)
 class Patient:
@@ -58,6 +61,14 @@ class Patient:
         low, high = (-92.0, -36.0, 276.0, 5.0), (-72.0, -22.0, 284.0, 7.5)
         x, y, z, radius = self.generator(9).uniform(low, high).tolist()
         return (x, y, z), radius
+
+    @property
+    def has_lobes(self) -> bool:
+        """Whether fissures, bronchi, emphysema and intercostal vessels are known of the patient.
+
+        All of it has its own random numbers, so that nothing else of a patient depends on it.
+        """
+        return self.seed >= LOBES_FROM
 
 
 def draw_patient(seed: int) -> Patient:

@@ -1,11 +1,13 @@
 """Vessels and gut of the phantom, drawn from the patient's own random numbers."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from app.core.arrays import FloatArray, unit
 from app.imaging.phantom import organs
+from app.imaging.phantom.airways import emphysema, lung_tubes
+from app.imaging.phantom.intercostals import intercostals
 from app.imaging.phantom.patient import Patient
 from app.imaging.phantom.trunk import diaphragm_height
 from app.imaging.phantom.tubes import Tubes, joined, tube
@@ -13,7 +15,7 @@ from app.imaging.phantom.tubes import Tubes, joined, tube
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Vasculature:
-    """All tubes of a patient by what fills them."""
+    """All tubes of a patient by what fills them; the last four of patients with lobes alone."""
 
     arteries: Tubes
     cava: Tubes
@@ -22,19 +24,30 @@ class Vasculature:
     lung: Tubes
     colon: Tubes
     small_bowel: Tubes
+    bronchi: Tubes = field(default_factory=lambda: joined(()))
+    emphysema: Tubes = field(default_factory=lambda: joined(()))
+    intercostal_arteries: Tubes = field(default_factory=lambda: joined(()))
+    intercostal_veins: Tubes = field(default_factory=lambda: joined(()))
 
 
 def vasculature(patient: Patient) -> Vasculature:
     """Lay out every tube of a patient."""
+    vessels, *others = _lobed(patient) if patient.has_lobes else (_lung(patient),)
     return Vasculature(
         _arteries(),
         _cava(),
         _portal(patient),
         _hepatic(patient),
-        _lung(patient),
+        vessels,
         _colon(patient),
         _small_bowel(patient),
+        *others,
     )
+
+
+def _lobed(patient: Patient) -> tuple[Tubes, ...]:
+    """Lay out lung vessels, bronchi, emphysema, intercostal arteries and veins."""
+    return (*lung_tubes(patient), emphysema(patient), *intercostals(patient))
 
 
 def obstacles(patient: Patient) -> dict[str, Tubes]:

@@ -1,6 +1,6 @@
 """What the built-in patient's recipe has at any point: its distance functions, without a grid.
 
-For studies: `RecipePoints(seed).codes_at(points_mm)`, codes of `from_recipe.TABLE`. It shares the
+For studies: `RecipePoints(seed).codes_at(points_mm)`, codes of `from_recipe.LOBED_TABLE`. It shares the
 shapes with the field of the recipe, the order in which they are laid, its table of codes and the
 diameter from which a vessel is a great one; it has no voxels, no table over the angle, no rule
 between neighbours, and double precision. A wrong shape or name would be wrong in both.
@@ -13,15 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
-from app.imaging.field.from_recipe import GREAT_MM, TABLE
-from app.imaging.field.naming import LUNG_VESSEL, SMALL_VESSEL
+from app.imaging.field.from_recipe import GREAT_MM, LOBED_TABLE
+from app.imaging.field.naming import BRONCHUS, EMPHYSEMA, LUNG_VESSEL, SMALL_VESSEL
 from app.imaging.phantom import organs, skeleton, trunk
 from app.imaging.phantom.lesion import make_patient
+from app.imaging.phantom.lobes import lobes
 from app.imaging.phantom.vessels import vasculature
 
 Codes = NDArray[np.intp]
 
-_CODE: Final = {tissue.name or tissue.kind.value: tissue.code for tissue in TABLE}
+_CODE: Final = {tissue.name or tissue.kind.value: tissue.code for tissue in LOBED_TABLE}
 _RUN: Final = 32  # points that lie beside each other, looked up among the same balls
 _CHUNK: Final = 50_000
 
@@ -38,6 +39,11 @@ class RecipePoints:
         tubes = vasculature(self._patient)
         self._gut = (("small bowel", tubes.small_bowel.balls), ("colon", tubes.colon.balls))
         self._lung = tubes.lung.balls
+        self._airways = (EMPHYSEMA, tubes.emphysema.balls), (BRONCHUS, tubes.bronchi.balls)
+        self._intercostal = (
+            ("intercostal vein", tubes.intercostal_veins.balls),
+            ("intercostal artery", tubes.intercostal_arteries.balls),
+        )
         great = {
             "vena cava": tubes.cava.balls,
             "portal vein": tubes.portal.balls,
@@ -75,8 +81,15 @@ class RecipePoints:
         psoas = (z < 172.0) & _between(at, -78.0, 78.0, -12.0, 72.0)
         lay(np.maximum(organs.psoas(at), at.wall - 8.0), "muscle", psoas)
         lay(np.maximum(np.abs(at.above - 2.3) - 1.4, at.wall), "diaphragm", z > 150.0)
-        lay(organs.lungs(patient, at), "lung", z > 150.0)
+        emphysema, bronchi = self._airways
+        if patient.has_lobes:
+            for lobe, distance in lobes(patient, at).items():
+                lay(distance, lobe, z > 150.0)
+            lay_balls(emphysema[1], emphysema[0], z > 150.0)
+        else:
+            lay(organs.lungs(patient, at), "lung", z > 150.0)
         lay_balls(self._lung, LUNG_VESSEL, z > 150.0)
+        lay_balls(bronchi[1], bronchi[0], z > 150.0)
         if patient.nodule is not None:
             (x, y, height), radius = patient.nodule
             dx, dy, dz = at.x - x, at.y - y, z - height
@@ -87,6 +100,8 @@ class RecipePoints:
         self._lay_organs(at, lay)
         lay_balls(self._small, SMALL_VESSEL)
         for name, balls in self._great.items():
+            lay_balls(balls, name)
+        for name, balls in self._intercostal:
             lay_balls(balls, name)
         lay(organs.lesion(patient, at), "lesion")
         _lay_bones(at, codes)

@@ -1,0 +1,134 @@
+"""Within the lobes: vessels, the bronchi that run beside them, and emphysema.
+
+Of patients who have lobes alone. Nothing crosses a fissure, and nothing comes near the nodule but
+vessels. Bronchi are balls of their outer radius; the lumen is what their wall leaves of it.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray, unit
+from app.imaging.phantom import organs
+from app.imaging.phantom.lobes import (
+    LEFT_LOWER,
+    LEFT_UPPER,
+    RIGHT_LOWER,
+    RIGHT_MIDDLE,
+    RIGHT_UPPER,
+    fissures,
+    lobes,
+)
+from app.imaging.phantom.patient import MODEL_TOP, Patient, Point
+from app.imaging.phantom.tubes import Tubes, joined, tube
+
+WALL_SHARE: Final = 0.3
+"""Thickness of a bronchus' wall as a share of its radius."""
+
+LEAST_BRONCHUS_MM: Final = 1.5
+"""Radius at which bronchi end [mm]."""
+
+_ROOTS: Final[dict[str, tuple[Point, int, int]]] = {
+    # where its tubes come from, its vessels, its bronchi
+    RIGHT_LOWER: ((-40.0, 14.0, 332.0), 55, 9),
+    RIGHT_MIDDLE: ((-48.0, -62.0, 277.0), 26, 5),
+    RIGHT_UPPER: ((-44.0, -30.0, 330.0), 26, 4),
+    LEFT_LOWER: ((40.0, 14.0, 332.0), 55, 9),
+    LEFT_UPPER: ((48.0, -34.0, 325.0), 40, 6),
+}
+_TRIES: Final = 60
+_BULLAE: Final = 14  # of each lung
+_CLEAR_OF_NODULE_MM: Final = 6.0
+
+
+@lru_cache(maxsize=4)
+def lung_tubes(patient: Patient) -> tuple[Tubes, Tubes]:
+    """Return vessels and bronchi of a patient who has lobes, the latter by their outer radius."""
+    rng = patient.generator(11)
+    vessels, bronchi = [], []
+    for lobe, (root, count, airways) in _ROOTS.items():
+        some, others = [], []
+        for number in range(count):
+            end = _end(patient, rng, lobe)
+            start = float(rng.uniform(0.9, 2.6))
+            bend = rng.normal(0.0, 6.0, 3)
+            way = np.array([root, 0.5 * (np.array(root) + end) + bend, end])
+            some.append(tube(way, [start, 0.7 * start, 0.5]))
+            if number < airways:
+                wide = float(rng.uniform(2.3, 3.4))
+                beside = unit(np.cross(end - np.array(root), rng.standard_normal(3)))
+                shift = (start + wide + 0.5) * beside
+                tip = way[1] + 0.6 * (end - way[1])
+                knots = np.array([way[0] + shift, way[1] + 0.9 * shift, tip + 0.7 * shift])
+                thin = max(LEAST_BRONCHUS_MM, 0.55 * wide)
+                others.append(tube(knots, [wide, 0.8 * wide, thin]))
+        vessels.append(_within(patient, joined(some), lobe))
+        bronchi.append(_within(patient, joined(others), lobe, clear_of_nodule=True))
+    return joined(vessels), joined(bronchi)
+
+
+def _end(patient: Patient, rng: np.random.Generator, lobe: str) -> FloatArray:
+    """Draw where a vessel of a lobe ends."""
+    sign = -1.0 if lobe.startswith("right") else 1.0
+    point = np.zeros(3)
+    for _ in range(_TRIES):
+        angle, reach = rng.uniform(0.0, 2.0 * np.pi), np.sqrt(rng.uniform(0.05, 1.0))
+        x, y = 76.0 * sign + 58.0 * reach * np.cos(angle), 84.0 * reach * np.sin(angle)
+        point = np.array([x, y, rng.uniform(205.0, MODEL_TOP + 8.0)])
+        if lobes(patient, _place(patient, point[None]))[lobe][0] < -3.0:
+            break
+    return point
+
+
+def _place(patient: Patient, points: FloatArray) -> organs.Place:
+    x, y, z = points.T
+    return organs.place_of(patient, x, y, z)
+
+
+def _within(patient: Patient, tubes: Tubes, lobe: str, clear_of_nodule: bool = False) -> Tubes:
+    """Keep what runs in a lobe."""
+    balls = tubes.balls
+    depth = lobes(patient, _place(patient, balls[:, :3]))[lobe]
+    keep = depth < -balls[:, 3] - 0.6
+    if clear_of_nodule:
+        keep &= _off_nodule(patient, balls) > 2.0
+    return Tubes(balls[keep])
+
+
+def _off_nodule(patient: Patient, balls: FloatArray) -> FloatArray:
+    """Room between balls and the nodule [mm]."""
+    assert patient.nodule is not None
+    centre, radius = patient.nodule
+    gap: FloatArray = np.linalg.norm(balls[:, :3] - centre, axis=1) - balls[:, 3] - radius
+    return gap
+
+
+@lru_cache(maxsize=4)
+def emphysema(patient: Patient) -> Tubes:
+    """Return balls of destroyed lung: near its surface, more of them and larger further up.
+
+    Clear of pleura, fissures and nodule; in what the scan shows.
+    """
+    rng = patient.generator(12)
+    found: list[FloatArray] = []
+    for sign in (-1.0, 1.0):
+        side: list[FloatArray] = []
+        for _ in range(60 * _BULLAE):
+            up = float(np.sqrt(rng.uniform()))
+            x, y = rng.uniform((20.0, -95.0), (150.0, 80.0))
+            z, radius = 252.0 + 46.0 * up, rng.uniform(3.0, 6.0 + 5.0 * up)
+            ball = np.array([sign * x, y, z, radius])
+            at = _place(patient, ball[None, :3])
+            depth = -float(organs.lungs(patient, at)[0])
+            clear = float(fissures(patient).away(at)[0]) > radius + 2.0
+            apart = all(np.linalg.norm(ball[:3] - one[:3]) > 0.7 * (radius + one[3]) for one in side)
+            off = float(_off_nodule(patient, ball[None])[0]) > _CLEAR_OF_NODULE_MM
+            if radius + 1.5 < depth < radius + 14.0 and clear and apart and off:
+                side.append(ball)
+            if len(side) == _BULLAE:
+                break
+        found += side
+    return Tubes(np.array(found).reshape(-1, 4))
