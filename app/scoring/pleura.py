@@ -42,9 +42,10 @@ def target_in_lung(met: Sequence[Met]) -> bool:
 
 
 def _within(met: Sequence[Met]) -> set[str]:
-    """Return the kinds of tissue within the lung: that of a target's nodule in it."""
-    holding = {one.kind for one in met if one.holds_target}
-    return holding - {TissueKind.LUNG} if TissueKind.LUNG in holding else set()
+    """Return the kinds of tissue within the lung: lung, and that of a target's nodule in it."""
+    holding: set[str] = {one.kind for one in met if one.holds_target}
+    lung: set[str] = {TissueKind.LUNG}
+    return holding | lung if TissueKind.LUNG in holding else lung
 
 
 def aerated_mm(met: Sequence[Met]) -> float:

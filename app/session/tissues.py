@@ -251,8 +251,8 @@ def _met_on(field: TissueField, way: _Way, held: set[int], forces: FeltAlong) ->
         within = small | held if code in lung | held else small
         for part in joined(crossed, {code}, GAP_MM, within - {code}):
             met = _met(field, way, part, crossed, held)
-            if code in lung:  # a nodule does not part it, and is none of it
-                solid = _solid_mm(crossed, part, held - lung)
+            if code in lung:  # a nodule does not part it, nor another lobe, and is none of it
+                solid = _solid_mm(crossed, part, (held | lung) - {code})
                 met = replace(met, length_mm=max(0.0, met.length_mm - solid))
             # Bone is left where something else is met, or the tip slid on.
             left = way.left(part.end_mm + (SLID_MM if met.is_bone else 0.0))

@@ -26,6 +26,9 @@ MOVING: Final = frozenset(
 )
 """What goes along with breathing where nobody says otherwise; the wall of the body stays."""
 
+IN_WALL: Final = "intercostal"
+"""Vessels of such a name lie in the wall, and stay."""
+
 AT_SPINE: Final = 0.5
 """Share of the target's motion that is left at the spine: an estimate, none found by organ."""
 
@@ -108,7 +111,7 @@ class BoundField:
         return np.array(
             [
                 (
-                    float(one.kind in MOVING) if value.moves is None else value.moves,
+                    float(_goes_along(one)) if value.moves is None else value.moves,
                     float(one.kind is TissueKind.LUNG),
                     float(value.rigid),
                     float(one.kind is TissueKind.AIR),
@@ -148,7 +151,7 @@ class BoundField:
     @property
     def _moves(self) -> NDArray[np.bool_]:
         """Return whether each tissue goes along with breathing, by code."""
-        return np.array([one.kind in MOVING for one in self.tissue.tissues])
+        return np.array([_goes_along(one) for one in self.tissue.tissues])
 
     def _codes(self, p_world: FloatArray) -> NDArray[np.intp]:
         patient = (p_world - self.T_world_patient.translation) @ self.T_world_patient.rotation
@@ -204,6 +207,10 @@ class BoundField:
         ijk = step * np.argwhere(chosen)[:, ::-1]
         affine = self.tissue.affine_mm
         return np.asarray((ijk @ affine[:3, :3].T + affine[:3, 3]) * MILLIMETRE)
+
+
+def _goes_along(tissue: FieldTissue) -> bool:
+    return tissue.kind in MOVING and not tissue.name.casefold().startswith(IN_WALL)
 
 
 def _linear(name: str, values: FloatArray) -> dict[str, float]:

@@ -196,4 +196,6 @@ def _values(tissue: "FieldTissue") -> TissueLayer:
     named = [name for name in table if name in words and not table[name].rigid]
     if tissue.kind is TissueKind.ORGAN and named:
         return table[max(named, key=len)]
+    if tissue.kind is TissueKind.LUNG and words.startswith("emphysema"):
+        return replace(LUNG, puncture_force=0.0)  # no pleura lies before it
     return _BY_KIND[tissue.kind]
