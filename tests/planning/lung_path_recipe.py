@@ -75,11 +75,11 @@ class Recipe:
             clouds.append((balls[:, None] + 4.2 * ways)[None])
         return cKDTree(np.vstack([cloud.reshape(-1, 3) for cloud in clouds]) * self.scale)
 
-    def in_rib(self, points_mm):
+    def in_rib(self, rib, points_mm):
         at = self.place(points_mm)
         p = np.abs(np.arctan2(at.x, at.y)) / np.pi
-        bone, _ = skeleton.rib_distance(at.wall - 5.0, p, at.z)
-        return bone < 0.0
+        tube = np.hypot((at.wall - 5.0) / 3.6, (at.z - rib.z(p)) / 6.4)
+        return (tube < 1.0) & (p >= 0.1) & (p <= rib.end)
 
     def report(self, entry, target):
         length = np.linalg.norm(target - entry)
@@ -109,7 +109,7 @@ class Recipe:
         return Wanted(
             pleura,
             fissures,
-            float(steps[np.isin(names, (*LOBES, "emphysema"))].sum()),
+            float(steps[np.isin(names, (*LOBES, "emphysema", "lung vessel", "bronchus"))].sum()),
             float(steps[names == "emphysema"].sum()),
             below,
             above,
@@ -134,15 +134,14 @@ class Recipe:
         return low, float(np.degrees(np.arccos(min(1.0, cosine))))
 
     def _ribs(self, wall):
-        if self.in_rib(wall).any():
-            return 0.0, 0.0
         at = self.place(wall)
         n = int(np.abs(at.wall - 5.0).argmin())
         p = np.abs(np.arctan2(at.x[n], at.y[n])) / np.pi
         sides = ([LOOK_MM], [LOOK_MM])
         fine = wall[::4]
         for rib, cloud in zip(skeleton.RIBS, self.ribs, strict=True):
-            away = float(cloud.query(fine)[0].min())
+            met = self.in_rib(rib, wall).any()
+            away = 0.0 if met else float(cloud.query(fine)[0].min())
             sides[int(float(rib.z(np.array(p))) > at.z[n])].append(away)
         return min(sides[0]), min(sides[1])
 

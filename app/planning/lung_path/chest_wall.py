@@ -22,6 +22,8 @@ INTERCOSTAL: Final = "intercostal"
 """What names of intercostal vessels hold."""
 
 _ASIDE: Final = float(np.tan(np.radians(50.0)))  # a rib runs across the path, not along `up`
+_MET_MM: Final = 0.3  # a rib so near is met: on which side it lies, its own middle tells
+_RIB_MM: Final = 8.0  # bone no farther from a place on a rib is of that rib
 _SLAB_MM: Final = 25.0
 _THICK_MM: Final = 6.0  # bone that is deeper than this lies in a vertebral body
 _FRONT_MM: Final = 45.0  # of the vertebral bodies, before their middle or the canal
@@ -60,20 +62,37 @@ def rib_borders(field: TissueField, entry: FloatArray, inner: FloatArray) -> Bor
     up /= max(float(np.linalg.norm(up)), 1e-9)
     high, aside = away @ up, np.abs(away @ np.cross(way, up))
     gap = np.maximum(np.linalg.norm(away, axis=1) - surface, 0.0)
-    if float(gap.min()) <= 0.0:
-        at = _tuple(places[gap.argmin()])
-        return Borders(0.0, 0.0, at, at)
-    sides: list[tuple[float, Place | None]] = []
-    for sign in (-1.0, 1.0):
-        among = np.flatnonzero((sign * high > 0.0) & (aside < _ASIDE * np.abs(high)))
-        nearest = among[gap[among].argmin()] if len(among) else -1
-        if nearest < 0 or gap[nearest] >= LOOK_MM:
-            sides.append((LOOK_MM, None))
+    nearest = int(gap.argmin())
+    sides: dict[float, tuple[float, Place | None]] = {}
+    free = np.full(len(places), True)
+    if gap[nearest] < _MET_MM:
+        own = _piece(field, places, nearest)
+        about = own & (np.linalg.norm(away, axis=1) < _RIB_MM)
+        most = 1.0 if high[about].mean() > 0.0 else -1.0
+        sides[most] = float(gap[nearest]), _tuple(places[nearest])
+        free = ~own
+    for sign in {-1.0, 1.0} - set(sides):
+        among = np.flatnonzero(free & (sign * high > 0.0) & (aside < _ASIDE * np.abs(high)))
+        n = among[gap[among].argmin()] if len(among) else -1
+        if n < 0 or gap[n] >= LOOK_MM:
+            sides[sign] = LOOK_MM, None
         else:
-            out = away[nearest] / max(float(np.linalg.norm(away[nearest])), 1e-9)
-            sides.append((float(gap[nearest]), _tuple(foot[nearest] + gap[nearest] * out)))
-    (below, below_at), (above, above_at) = sides
+            out = away[n] / max(float(np.linalg.norm(away[n])), 1e-9)
+            sides[sign] = float(gap[n]), _tuple(foot[n] + gap[n] * out)
+    (below, below_at), (above, above_at) = sides[-1.0], sides[1.0]
     return Borders(below, above, below_at, above_at)
+
+
+def _piece(field: TissueField, places: FloatArray, number: int) -> NDArray[np.bool_]:
+    """Return which voxels hang together with one of them; where all do, those of its rib about."""
+    ijk = np.rint(places @ field.inverse_mm[:3, :3].T + field.inverse_mm[:3, 3]).astype(int)
+    ijk -= ijk.min(axis=0)
+    solid = np.zeros(ijk.max(axis=0) + 1, bool)
+    solid[tuple(ijk.T)] = True
+    numbers = ndimage.label(solid)[0][tuple(ijk.T)]
+    own = np.asarray(numbers == numbers[number])
+    near = np.linalg.norm(places - places[number], axis=1) < 2.0 * _RIB_MM
+    return np.asarray(own & near) if own.all() else own
 
 
 def intercostal_mm(field: TissueField, entry: FloatArray, inner: FloatArray) -> float | None:
@@ -83,7 +102,7 @@ def intercostal_mm(field: TissueField, entry: FloatArray, inner: FloatArray) -> 
         for one in field.of_kind(TissueKind.VESSEL)
         if INTERCOSTAL in one.name.casefold().replace("_", " ")
     ]
-    found = _near(field, vessels, entry, inner)
+    found = _near(field, vessels, entry, inner, are_thin=True)
     if found is None:
         return None
     places, surface = found
@@ -149,11 +168,16 @@ def _is_spine(tissue: FieldTissue) -> bool:
 
 
 def _near(
-    field: TissueField, codes: list[int], entry: FloatArray, inner: FloatArray
+    field: TissueField,
+    codes: list[int],
+    entry: FloatArray,
+    inner: FloatArray,
+    are_thin: bool = False,
 ) -> tuple[FloatArray, FloatArray] | None:
     """Return voxels of some codes about a path, LPS, and how deep they lie in them [mm].
 
-    None where no voxel of the whole field has one of the codes.
+    None where no voxel of the whole field has one of the codes. Of what is thin no voxel lies
+    deeper than the nearest voxel that is none: boundaries beside it may mislead a field's distance.
     """
     ends = np.array([entry, inner])
     ijk = ends @ field.inverse_mm[:3, :3].T + field.inverse_mm[:3, 3]
@@ -169,7 +193,11 @@ def _near(
         return np.zeros((0, 3)), np.zeros(0)
     at: NDArray[np.intp] = np.argwhere(chosen)
     places = (at + first)[:, ::-1] @ field.affine_mm[:3, :3].T + field.affine_mm[:3, 3]
-    return places, field.distance[box][chosen] / STEPS_PER_MM
+    deep = field.distance[box][chosen] / STEPS_PER_MM
+    if are_thin:
+        outside = ndimage.distance_transform_edt(chosen, sampling=field.spacing_mm[::-1])
+        deep = np.minimum(deep, np.asarray(outside)[chosen])
+    return places, deep
 
 
 def _feet(places: FloatArray, entry: FloatArray, inner: FloatArray) -> FloatArray:

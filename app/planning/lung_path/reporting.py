@@ -20,6 +20,7 @@ from app.imaging.interpolation import interpolate
 from app.imaging.volume import Volume
 from app.planning.errors import PlanError
 from app.planning.lung_path import chest_wall
+from app.planning.lung_path.surface import crossing_angle
 from app.planning.lung_path.tubes import tubes_near
 from app.planning.lung_path.values import LungCrossing, LungPathReport, Place
 
@@ -92,7 +93,7 @@ class LungPaths:
             unknown_mm=unknown,
             pleura=self._pleura(parts, within) if known else None,
             fissures=self._fissures(parts, within) if known else None,
-            lung_mm=self._length(parts, self._lung - self._bronchi) if known else None,
+            lung_mm=self._lung_mm(parts, within) if known else None,
             emphysema_mm=self._emphysema_mm(parts) if known else None,
             rib_below_mm=borders.below_mm,
             rib_above_mm=borders.above_mm,
@@ -133,11 +134,16 @@ class LungPaths:
         return result
 
     def _pleura(self, parts: list[Crossed], within: list[bool]) -> tuple[LungCrossing, ...]:
+        inside = self._lung | self._vessels
         return tuple(
-            LungCrossing(part.begin_mm, part.angle_deg, _tuple(part.begin), goes_in=now)
+            LungCrossing(part.begin_mm, self._angle(part, inside), _tuple(part.begin), goes_in=now)
             for part, now, before in zip(parts[1:], within[1:], within[:-1], strict=True)
             if now != before
         )
+
+    def _angle(self, part: Crossed, inside: set[int]) -> float:
+        angle = crossing_angle(self._field, inside, part.begin, part.end - part.begin)
+        return part.angle_deg if angle is None else angle
 
     def _fissures(
         self, parts: list[Crossed], within: list[bool]
@@ -160,18 +166,24 @@ class LungPaths:
     def _fissure(self, last: Crossed, part: Crossed) -> LungCrossing:
         name = self._field.tissues[part.code].name
         if part.begin_mm - last.end_mm < 1e-6:
-            return LungCrossing(
-                part.begin_mm, part.angle_deg, _tuple(part.begin), True, name
-            )
+            angle = self._angle(part, {part.code})
+            return LungCrossing(part.begin_mm, angle, _tuple(part.begin), True, name)
         middle = 0.5 * (last.end + part.begin)
         return LungCrossing(0.5 * (last.end_mm + part.begin_mm), None, _tuple(middle), True, name)
 
-    def _length(self, parts: list[Crossed], codes: set[int]) -> float:
-        return sum(part.length_mm for part in parts if part.code in codes)
+    def _lung_mm(self, parts: list[Crossed], within: list[bool]) -> float:
+        """Return the length between pleura and target: lung, and what runs in it; no lesion."""
+        tubes = self._lung | self._vessels
+        counted = [
+            inside and part.code in tubes for part, inside in zip(parts, within, strict=True)
+        ]
+        if parts[-1].code in self._vessels:  # what looks like a vessel holds the target
+            counted[-1] = False
+        return sum(p.length_mm for p, counts in zip(parts, counted, strict=True) if counts)
 
     def _emphysema_mm(self, parts: list[Crossed]) -> float | None:
         if self._emphysema:
-            return self._length(parts, self._emphysema)
+            return sum(part.length_mm for part in parts if part.code in self._emphysema)
         if self._volume is None:
             return None
         total = 0.0

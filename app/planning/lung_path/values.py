@@ -76,10 +76,12 @@ class LungPathReport:
         unknown_mm: of it, through what nobody labelled.
         pleura: where it is crossed, in order.
         fissures: likewise; each is two more layers of pleura, and not in `pleura`.
-        lung_mm: length through aerated lung, emphysema with it, vessels and bronchi without.
+        lung_mm: length within the pleura up to the lesion: aerated lung, and the vessels and
+            bronchi that run in it, as published lengths of needle in lung have it.
         emphysema_mm: of that, through emphysema.
         rib_below_mm: from the path in the chest wall to the upper border of the rib below;
-            `LOOK_MM` where there is none nearer, 0 where the path meets a rib.
+            `LOOK_MM` where there is none nearer. A rib that the path meets is 0 away, on the side
+            on which most of it lies.
         rib_above_mm: likewise to the lower border of the rib above.
         rib_below_at, rib_above_at: the rib's nearest place, LPS; None where there is none.
         intercostal_mm: from the path to the nearest intercostal vessel, at most `LOOK_MM`.
