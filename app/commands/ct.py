@@ -160,6 +160,13 @@ def path(
     series: Annotated[
         str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
     ] = None,
+    lung: Annotated[
+        bool, typer.Option("--lung", help="Report pleura, fissures, lung, ribs and vessels.")
+    ] = False,
+    alternatives: Annotated[
+        int,
+        typer.Option(min=0, max=8, metavar="N", help="With --lung: report N other entries too."),
+    ] = 0,
 ) -> Answer:
     """Print what a straight path meets. Tissue after tissue, and how sure that is."""
     import numpy as np
@@ -173,9 +180,13 @@ def path(
     _start_reader()
     volume = _volume(folder, series, None)
     reach = float(np.linalg.norm(ends[1] - ends[0])) + _BEYOND_MM
+    marked = [one for file in structures or () for one in read_structures(file, volume)]
+    if lung:
+        from app.commands.lung_path import lung_answer
+
+        return lung_answer(volume, marked, ends, alternatives)
 
     def work(progress: "Progress") -> "TissueField":
-        marked = [one for file in structures or () for one in read_structures(file, volume)]
         return field_of(volume, marked, ends[0], reach, progress=progress)
 
     field = with_progress(work)

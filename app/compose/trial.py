@@ -208,7 +208,8 @@ class Trials:
         self._tissues = tissues
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
-        self._planned = judged_plan_of(placed, tissues) if exercise.is_own_plan else None
+        asks_lung = exercise.asks_lung_path
+        self._planned = judged_plan_of(placed, tissues, asks_lung) if exercise.is_own_plan else None
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
         self._pulls = self._task is not None and bool(exercise.laws)

@@ -171,7 +171,19 @@ class OwnPlan(Strict):
     target_mm: Triple | None = None
 
 
-OF_OWN_PLANS: Final = frozenset({"plan_score", "plan_clearance"})
+OF_LUNG_PATHS: Final = frozenset(
+    {
+        "planned_emphysema",
+        "planned_fissures",
+        "planned_intercostal",
+        "planned_lung",
+        "planned_pleural_angle",
+        "planned_rib_border",
+    }
+)
+"""Metrics of the path report of a lung biopsy, which is made where one of them is asked for."""
+
+OF_OWN_PLANS: Final = frozenset({"plan_score", "plan_clearance"}) | OF_LUNG_PATHS
 """Metrics of the path that the student chose: there is none where the exercise gives it."""
 
 

@@ -20,6 +20,7 @@ from app.exercises.guidance import (
 from app.exercises.hand_bands import OF_HANDS, HandBands, check_bands, judged_by_hand
 from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.parts import (
+    OF_LUNG_PATHS,
     OF_OWN_PLANS,
     TELLING,
     Ct,
@@ -341,6 +342,11 @@ class Exercise(Strict):
     def is_own_plan(self) -> bool:
         """Return whether the student chooses the entry, so that the plan is judged."""
         return isinstance(self.plan, OwnPlan)
+
+    @property
+    def asks_lung_path(self) -> bool:
+        """Return whether the path report of a lung biopsy counts."""
+        return bool(OF_LUNG_PATHS & self.tolerances.keys())
 
     @property
     def needs_field(self) -> bool:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from app.imaging.field.tissue_field import TissueKind
+from app.planning.lung_path.values import LungPathReport
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +80,7 @@ class JudgedPlan:
         meets: bone, lung, vessels, gut and heart on the path, more than is allowed of them.
         pleural_deg: between path and the pleura's normal; None where the lung is not entered.
         is_long, is_flat: whether the path is longer, or lies flatter to the skin, than is allowed.
+        lung: the path report of a lung biopsy; None where nobody asked, or the path misses the lung.
     """
 
     points: float
@@ -91,3 +93,4 @@ class JudgedPlan:
     pleural_deg: float | None = None
     is_long: bool = False
     is_flat: bool = False
+    lung: LungPathReport | None = None

@@ -66,6 +66,7 @@ class AttemptLog:
         risks: structures that the needle has to keep away from.
         tissues: field of the patient that tells what the needle met; None for none.
         judges_plan: whether the student chose the path, so that it is judged.
+        asks_lung: whether the path report of a lung biopsy is part of that.
     """
 
     recorder: Recorder
@@ -77,6 +78,7 @@ class AttemptLog:
     risks: tuple[Risk, ...] = ()
     tissues: TissueField | None = None
     judges_plan: bool = False
+    asks_lung: bool = False
 
     def open(self, threaded: bool) -> str:
         """Start recording; returns why it cannot be recorded, or nothing."""
@@ -114,7 +116,11 @@ class AttemptLog:
             met = tissues_met_of(samples, self.placed, self.tissues, felt)
             for event in events_of(met, samples):
                 self.event(event)
-            planned = judged_plan_of(self.placed, self.tissues) if self.judges_plan else None
+            planned = (
+                judged_plan_of(self.placed, self.tissues, self.asks_lung)
+                if self.judges_plan
+                else None
+            )
             if planned is not None and len(samples.time):
                 self.event(event_of_plan(planned, float(samples.time[-1])))
             path = trajectory(

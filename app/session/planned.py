@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
+from dataclasses import replace
 from math import inf, isfinite
 from typing import Any, Final
 
@@ -16,6 +17,8 @@ from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.imaging.field.tissue_words import tissue_words
 from app.planning.errors import PlanError
 from app.planning.judged import WEIGHTS, JudgedPlan, WayHindrance
+from app.planning.lung_path.sentences import lung_sentences
+from app.planning.lung_path.values import LungPathReport
 from app.planning.placement import PlacedPlan
 
 KIND: Final = "plan"
@@ -24,15 +27,29 @@ KIND: Final = "plan"
 VERSION: Final = 1
 
 
-def judged_plan_of(placed: PlacedPlan, field: TissueField | None) -> JudgedPlan | None:
-    """Judge the path of an attempt; None where nothing can tell."""
+def judged_plan_of(
+    placed: PlacedPlan, field: TissueField | None, asks_lung: bool = False
+) -> JudgedPlan | None:
+    """Judge the path of an attempt; None where nothing can tell.
+
+    Args:
+        placed: of the attempt.
+        field: of the patient.
+        asks_lung: whether the path report of a lung biopsy is asked for too.
+    """
     if field is None:
         return None
     from app.planning.judged_plan import judge_plan  # computes: records are read without it
 
+    ends = placed.plan.entry_mm, placed.plan.target_mm
+    plan = None
     with suppress(PlanError):
-        return judge_plan(field, placed.plan.entry_mm, placed.plan.target_mm)
-    return None
+        plan = judge_plan(field, *ends)
+        if asks_lung:
+            from app.planning.lung_path.reporting import LungPaths
+
+            plan = replace(plan, lung=LungPaths(field).report(*ends))
+    return plan
 
 
 def event_of(plan: JudgedPlan, time: float) -> Event:
@@ -59,6 +76,8 @@ def event_of(plan: JudgedPlan, time: float) -> Event:
             for one in plan.meets
         ],
     }
+    if plan.lung is not None:
+        data["lung"] = plan.lung.document()
     return Event(time, KIND, " ".join(plan_sentences(plan)), data)
 
 
@@ -93,6 +112,7 @@ def _of(data: dict[str, Any]) -> JudgedPlan:
         pleural_deg=None if pleura is None else float(pleura),
         is_long=bool(data["is_long"]),
         is_flat=bool(data["is_flat"]),
+        lung=LungPathReport.of(data["lung"]) if data.get("lung") else None,
     )
     if not 0.0 <= plan.points <= 100.0:
         raise ValueError(plan.points)
@@ -127,8 +147,9 @@ def plan_sentences(plan: JudgedPlan) -> tuple[str, ...]:
                 most=weights.flattest_deg,
             )
         )
+    lung = () if plan.lung is None else lung_sentences(plan.lung)
     if found:
-        return tuple(found)
+        return (*found, *lung)
     if plan.clear_mm < weights.free_mm:
         found.append(
             sentence(
@@ -147,4 +168,4 @@ def plan_sentences(plan: JudgedPlan) -> tuple[str, ...]:
             angle=plan.angle_deg,
         )
     )
-    return tuple(found)
+    return (*found, *lung)

@@ -257,6 +257,7 @@ class Trainer:
                 risks=self._risks,
                 tissues=self._tissues,
                 judges_plan=self._exercise.is_own_plan,
+                asks_lung=self._exercise.asks_lung_path,
             )
             # Head and checkpoint are on the disk before the attempt's clock starts.
             failure = log.open(threaded=self._ticker is not None)

@@ -124,7 +124,9 @@ def emphysema(patient: Patient) -> Tubes:
             at = _place(patient, ball[None, :3])
             depth = -float(organs.lungs(patient, at)[0])
             clear = float(fissures(patient).away(at)[0]) > radius + 2.0
-            apart = all(np.linalg.norm(ball[:3] - one[:3]) > 0.7 * (radius + one[3]) for one in side)
+            apart = all(
+                np.linalg.norm(ball[:3] - one[:3]) > 0.7 * (radius + one[3]) for one in side
+            )
             off = float(_off_nodule(patient, ball[None])[0]) > _CLEAR_OF_NODULE_MM
             if radius + 1.5 < depth < radius + 14.0 and clear and apart and off:
                 side.append(ball)

@@ -63,6 +63,17 @@ class Patient:
         return (x, y, z), radius
 
     @property
+    def own_nodule(self) -> tuple[Point, float]:
+        """Centre and radius of the nodule of a patient who has one.
+
+        Raises:
+            ValueError: if there is none.
+        """
+        if self.nodule is None:
+            raise ValueError(self.seed)
+        return self.nodule
+
+    @property
     def has_lobes(self) -> bool:
         """Whether fissures, bronchi, emphysema and intercostal vessels are known of the patient.
 

@@ -75,9 +75,7 @@ class LungPaths:
         parts = walk(field, [entry, target])
         inner = self._first_lung(parts)
         unknown = sum(
-            part.length_mm
-            for part in parts
-            if field.tissues[part.code].kind is TissueKind.UNKNOWN
+            part.length_mm for part in parts if field.tissues[part.code].kind is TissueKind.UNKNOWN
         )
         known = unknown <= _UNKNOWN_MM
         within = self._within(parts, target)
@@ -105,6 +103,13 @@ class LungPaths:
             vessels=tubes_near(field, self._vessels, inner.begin, end) if has_vessels else None,
             bronchi=tubes_near(field, self._bronchi, inner.begin, end) if has_bronchi else None,
         )
+
+    def report_or_none(self, entry_mm: ArrayLike, target_mm: ArrayLike) -> LungPathReport | None:
+        """Report a straight path; None where it does not go through the lung."""
+        try:
+            return self.report(entry_mm, target_mm)
+        except PlanError:
+            return None
 
     def _first_lung(self, parts: list[Crossed]) -> Crossed:
         if not self._lung:

@@ -486,6 +486,12 @@ def default_tolerance(metric: str) -> dict[str, Any]:
         "risk_distance": (10.0, 7.0, 5.0),
         "plan_score": (75.0, 65.0, 50.0),
         "plan_clearance": (10.0, 7.0, 5.0),
+        "planned_emphysema": (0.0, 5.0, 10.0),
+        "planned_fissures": (0.0, 0.5, 1.0),
+        "planned_intercostal": (6.0, 4.0, 2.7),
+        "planned_lung": (20.0, 30.0, 40.0),
+        "planned_pleural_angle": (10.0, 25.0, 40.0),
+        "planned_rib_border": (6.0, 4.0, 2.7),
     }
     higher = metrics.find(metric).higher_is_better
     expert, good, passing = own.get(metric, (3.0, 2.0, 1.0) if higher else (1.0, 2.0, 3.0))

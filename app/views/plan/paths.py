@@ -37,6 +37,7 @@ from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import literal, tr, translated
 from app.views.plan.entry_map import EntryMap, EntryMapLayer, legend
+from app.views.plan.lung_path import LungPathPart
 from app.views.plan.way import ABOUT_TARGET_MM
 from app.views.shell.feature import Context, Feature
 
@@ -215,6 +216,8 @@ class PathsFeature(Feature):
         self._editor, self._book = context.editors.plan, context.editors.structures
         self.panel = PathsPanel()
         context.shell.add_panel(self.panel, below=tr("Plan"))
+        self.lung = LungPathPart(context, self)
+        context.shell.add_panel(self.lung.panel, below=tr("Plan"))
         self.scores: PathScores | None = None
         self._task: BackgroundTask | None = None
         self._stands_on: tuple[object, ...] = ()
@@ -233,6 +236,12 @@ class PathsFeature(Feature):
         self._conductor.patient_changed.connect(self.clear)
         self._conductor.exercise_taken.connect(lambda _: self.clear())
         self._conductor.controller.beginning.connect(self.clear)
+        for left in (
+            self._conductor.patient_changed,
+            self._conductor.exercise_taken,
+            self._conductor.controller.beginning,
+        ):
+            left.connect(lambda *_: self.lung.clear())
         ACCESS.changed.connect(self._look_who_is_here)
         self._check()
 
@@ -241,8 +250,9 @@ class PathsFeature(Feature):
         return (self._editor.changed,)
 
     def forget(self) -> None:
-        """Take the map of the patient who leaves away."""
+        """Take map and report of the patient who leaves away."""
         self.clear()
+        self.lung.clear()
 
     def suit_room(self) -> None:
         """Take another size of text."""
@@ -253,6 +263,7 @@ class PathsFeature(Feature):
         if here != self._here:
             self._here = here
             self.clear()
+            self.lung.clear()
 
     def _standing(self) -> tuple[object, ...]:
         """Return what the scores depend on."""
@@ -352,6 +363,7 @@ class PathsFeature(Feature):
             self._task = None
         self.scores, self._stands_on, self._tissues = None, (), None
         self.panel.show_scores(None, ())
+        self.lung.show_alternative(None, "")
         self._draw(None)
         self._check()  # another may be made
 
@@ -371,7 +383,10 @@ class PathsFeature(Feature):
 
     def _preview(self, number: int) -> None:
         if self.scores is not None:
-            self._views.viewing.set_cursor(self.scores.entries_mm[number])
+            entry = self.scores.entries_mm[number]
+            self._views.viewing.set_cursor(entry)
+            name = tr("Alternative, {points:.0f} points", points=self.scores.score[number])
+            self.lung.show_alternative(entry, name)
 
     def _take(self, number: int) -> None:
         if self.scores is not None:
@@ -381,6 +396,7 @@ class PathsFeature(Feature):
 
     def close(self) -> None:
         """End what runs; idempotent."""
+        self.lung.close()
         if self._task is not None:
             self._task.close()
             self._task = None
