@@ -80,7 +80,7 @@ class JudgedPlan:
         meets: bone, lung, vessels, gut and heart on the path, more than is allowed of them.
         pleural_deg: between path and the pleura's normal; None where the lung is not entered.
         is_long, is_flat: whether the path is longer, or lies flatter to the skin, than is allowed.
-        lung: the path report of a lung biopsy; None where nobody asked, or the path misses the lung.
+        lung: the path report of a lung biopsy; None where nobody asked, or it misses the lung.
     """
 
     points: float

@@ -1,7 +1,7 @@
 """The path report by the built-in patient's recipe alone: no grid, no labels, no rule between them.
 
 Pleura and fissures are roots of the recipe's distance functions along the path, their normals its
-gradients; lengths are counted at every twentieth of a millimetre; ribs are points on their surfaces.
+gradients; lengths are counted every twentieth of a millimetre; ribs are points on their surfaces.
 """
 
 from dataclasses import dataclass

@@ -100,8 +100,7 @@ def _within(patient: Patient, tubes: Tubes, lobe: str, clear_of_nodule: bool = F
 
 def _off_nodule(patient: Patient, balls: FloatArray) -> FloatArray:
     """Room between balls and the nodule [mm]."""
-    assert patient.nodule is not None
-    centre, radius = patient.nodule
+    centre, radius = patient.own_nodule
     gap: FloatArray = np.linalg.norm(balls[:, :3] - centre, axis=1) - balls[:, 3] - radius
     return gap
 
@@ -124,9 +123,8 @@ def emphysema(patient: Patient) -> Tubes:
             at = _place(patient, ball[None, :3])
             depth = -float(organs.lungs(patient, at)[0])
             clear = float(fissures(patient).away(at)[0]) > radius + 2.0
-            apart = all(
-                np.linalg.norm(ball[:3] - one[:3]) > 0.7 * (radius + one[3]) for one in side
-            )
+            gaps = [np.linalg.norm(ball[:3] - one[:3]) - 0.7 * (radius + one[3]) for one in side]
+            apart = min(gaps, default=1.0) > 0.0
             off = float(_off_nodule(patient, ball[None])[0]) > _CLEAR_OF_NODULE_MM
             if radius + 1.5 < depth < radius + 14.0 and clear and apart and off:
                 side.append(ball)

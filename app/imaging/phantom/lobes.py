@@ -49,10 +49,8 @@ class Fissure:
 
     def above(self, x: Field, y: Field, z: Field) -> Field:
         """Distance above the fissure, to the upper lobe [mm], about."""
-        away: Field = sum(
-            (n * (axis - p) for n, axis, p in zip(self.normal, (x, y, z), self.point, strict=True)),
-            np.float64(0.0),
-        )
+        (nx, ny, nz), (px, py, pz) = self.normal, self.point
+        away: Field = nx * (x - px) + ny * (y - py) + nz * (z - pz)
         return away + _WAVE_MM * np.sin(2.0 * np.pi / _WAVE_LENGTH_MM * (x + 0.5 * z) + self.wave)
 
 
@@ -93,8 +91,7 @@ def fissures(patient: Patient) -> Fissures:
     def between(low: float, high: float) -> float:
         return float(rng.uniform(low, high))
 
-    assert patient.nodule is not None  # so has everybody with lobes
-    (x, y, z), radius = patient.nodule
+    (x, y, z), radius = patient.own_nodule
     back, up = y - _HILUM_Y, z - _HILUM_Z
     room = radius + _WAVE_MM + between(*_ROOM_MM)
     # the plane through the hilum that leaves the nodule so far below it

@@ -52,7 +52,7 @@ def alternatives_of(
         target_mm, skin, body, (), Placement(), free, progress=progress.part(0.5, 1.0),
         tissues=field,
     )  # fmt: skip
-    found = []
+    found: list[tuple[float, LungPathReport]] = []
     for number in best(scores, _MOST):
         report = paths.report_or_none(scores.entries_mm[number], target_mm)
         if report is not None and len(found) < count:

@@ -273,8 +273,9 @@ class LungPathPart(QObject):
 
     def _mark(self) -> None:
         places = () if self.reports is None else places_of(self.reports[0])
-        for marks in (*self._layers, self._scene):
-            marks.set_places(places)
+        for layer in self._layers:
+            layer.set_places(places)
+        self._scene.set_places(places)
 
 
 def places_of(report: LungPathReport) -> tuple[MetPlace, ...]:
