@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
+from app.exercises.parts import OF_OWN_PLANS
 from app.scoring.errors import TrajectoryError
 from app.scoring.metrics import available
 from app.scoring.paths import raw_length, smooth_length
@@ -263,7 +264,7 @@ def test_a_million_samples_are_scored() -> None:
     not_asked |= {"bone_contacts", "bone_force", "capsule_passes", "gut_touched", "lung_crossed"}
     not_asked |= {"organ_crossed", "pleural_angle", "pleural_crossings", "skin_passes"}
     not_asked |= {"breath_offset"}  # nothing breathes
-    not_asked |= {"plan_clearance", "plan_score"}  # the path was given
+    not_asked |= OF_OWN_PLANS  # the path was given
     not_asked |= {"vessels_touched"}  # no field tells what this needle met
     assert {row.name for row in result.rows if row.value is not None} == set(
         available()

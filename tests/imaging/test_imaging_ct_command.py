@@ -204,3 +204,21 @@ def test_path_says_what_a_straight_line_meets_and_how_sure_that_is(ct):
     code, _, said = ct("path", folder, "--entry=1,2", f"--target={ends[1]}")
     assert code != 0
     assert "three numbers X,Y,Z" in said
+
+
+def test_path_reports_a_path_through_the_lung_and_says_where_there_is_none(ct):
+    folder = phantom_series(2000, slices=60, rows=64)
+    x, y, z = anatomy(2000).organs["lung nodule"]
+    entry, target = "--entry=-111.7,-83.8,259.9", f"--target={x:.2f},{y:.2f},{z:.2f}"
+    code, out, _ = ct("path", folder, entry, target, "--lung", "--json")
+    report = json.loads(out)["facts"]["lung"]
+    assert code == 0
+    assert len(report["pleura"]) == len(report["fissures"]) == 1
+    assert report["fissures"][0]["beyond"] == "right lower lobe"
+    assert 30.0 < report["lung_mm"] < 60.0
+    assert report["is_protected"] is True
+    code, out, _ = ct("path", folder, entry, target, "--lung")
+    assert "Fissures crossed: 1 (" in out
+    code, _, said = ct("path", folder, "--entry=-60,-105,150", "--target=-74,-9,152", "--lung")
+    assert code != 0
+    assert "this path does not go through the lung" in said

@@ -59,7 +59,7 @@ class Recipe:
     def _rib(self, rib):
         """Points on a rib's surface, both sides and its neck, LPS [mm]."""
         p, turn = np.meshgrid(
-            np.arange(0.1, rib.end, 0.0011), np.linspace(0.0, 2.0 * np.pi, 49)[:-1], indexing="ij"
+            np.arange(0.1, rib.cartilage_end, 0.0011), np.linspace(0.0, 2.0 * np.pi, 49)[:-1], indexing="ij"
         )
         z = rib.z(p) + 6.4 * np.sin(turn)
         clouds = []
@@ -79,7 +79,7 @@ class Recipe:
         at = self.place(points_mm)
         p = np.abs(np.arctan2(at.x, at.y)) / np.pi
         tube = np.hypot((at.wall - 5.0) / 3.6, (at.z - rib.z(p)) / 6.4)
-        return (tube < 1.0) & (p >= 0.1) & (p <= rib.end)
+        return (tube < 1.0) & (p >= 0.1) & (p <= rib.cartilage_end)
 
     def report(self, entry, target):
         length = np.linalg.norm(target - entry)

@@ -55,6 +55,13 @@ def test_what_a_new_exercise_forbids(one, forbidden):
         ),
         ([met("lung", before="fat", after="organ"), met("organ", "liver", holds_target=True)], 2),
         ([met("lung", before="fat", after="")], 1),
+        (
+            [
+                met("lung", "right upper lobe", before="fat", after="lung"),
+                met("lung", "right lower lobe", before="lung", after=""),
+            ],
+            1,
+        ),
     ],
 )
 def test_no_pleura_lies_between_the_lung_and_the_nodule_in_it(parts, crossings):

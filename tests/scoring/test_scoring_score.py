@@ -166,7 +166,10 @@ MET = {
     *("pleural_crossings", "pleural_angle", "lung_crossed", "organ_crossed"),
 }
 """Metrics of what the needle met, which need a tissue field."""
-PLANS = {"plan_score", "plan_clearance"}
+PLANS = {
+    *("plan_score", "plan_clearance", "planned_emphysema", "planned_fissures"),
+    *("planned_intercostal", "planned_lung", "planned_pleural_angle", "planned_rib_border"),
+}
 """Metrics of a plan of the student's own."""
 
 TOUCHES = {"targets_touched", "time_per_target", "economy_of_motion"}

@@ -31,6 +31,7 @@ EXERCISE = SimpleNamespace(
     effects={},
     drill=None,
     is_own_plan=False,
+    asks_lung_path=False,
     bands={},
     bands_for=lambda hand: None,
     tolerances_for=lambda hand: DEFAULT_TOLERANCES,

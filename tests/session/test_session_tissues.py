@@ -260,6 +260,43 @@ def test_a_plan_of_the_students_own_is_judged_and_scored_from_the_record_again(
     assert reasons("plan_score", past)[0] == "The path comes within 4.0 mm of rib, 20 mm deep."
 
 
+def test_the_path_report_of_a_lung_biopsy_is_scored_from_the_record_alone(bench: Bench) -> None:
+    bench.trainer._exercise.is_own_plan = True
+    field = body(rib(14.0, 0.0), (Kind.LUNG, "lung", beyond((0, 1, 0), ENTRY[1] + 20.0)))
+    plain = attempt(bench, field)
+    (kept,) = [event for event in plain.events if event.kind == "plan"]
+    assert "lung" not in kept.data  # nobody asked
+    assert "planned_lung" not in {row.name for row in plain.score.rows}
+    bench.trainer._exercise.asks_lung_path = True
+    result = attempt(bench, field)
+    recording = read_recording(result.record)
+    report = judged_plan(recording.events).lung
+    assert report is not None
+    assert report.lung_mm == pytest.approx(40.0, abs=0.2)
+    values = {row.name: row.value for row in result.score.rows}
+    assert values["planned_lung"] == report.lung_mm
+    assert values["planned_rib_border"] == 0.0
+    assert "planned_fissures" not in values or values["planned_fissures"] is None
+    assert verify(recording).confirmed
+    assert recording.trajectory().planned.lung == report
+
+
+def test_lobes_one_after_the_other_are_one_way_through_the_lung(bench: Bench) -> None:
+    y = ENTRY[1]
+    bulla = ball(ENTRY + [0.0, 28.0, 0.0], 3.0)
+    result = attempt(
+        bench,
+        body(
+            (Kind.LUNG, "right upper lobe", beyond((0, 1, 0), y + 20.0)),
+            (Kind.LUNG, "right lower lobe", beyond((0, 1, 0), y + 34.0)),
+            (Kind.LUNG, "emphysema", bulla),
+        ),
+    )
+    values = {row.name: row.value for row in result.score.rows}
+    assert values["pleural_crossings"] == 1.0  # a fissure is none
+    assert values["lung_crossed"] == pytest.approx(20.0, abs=0.7)
+
+
 def test_a_plan_that_was_given_is_nobodys_to_be_judged(bench: Bench) -> None:
     result = attempt(bench, body(rib(20.0, 8.0)))
     assert result.trajectory.planned is None

@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from app.core.arrays import FloatArray
-from app.imaging.field.tissue_field import STEPS_PER_MM, FieldTissue, TissueField, TissueKind
+from app.imaging.field.tissue_field import (
+    STEPS_PER_MM,
+    UNKNOWN,
+    FieldTissue,
+    TissueField,
+    TissueKind,
+)
 from app.planning.lung_path.values import LOOK_MM, PROTECTED_FROM_MM, Place
 
 INTERCOSTAL: Final = "intercostal"
@@ -41,10 +47,11 @@ class Borders:
 
 
 def rib_codes(field: TissueField) -> list[int]:
-    """Return the codes of ribs; of all bone where nobody named ribs."""
+    """Return the codes of ribs and their cartilage; of all bone where nobody named ribs."""
     bones = field.of_kind(TissueKind.BONE)
     ribs = [one.code for one in bones if one.name.casefold().startswith("rib")]
-    return ribs or [one.code for one in bones]
+    named = [one.code for one in field.tissues if _is_cartilage(one)]
+    return named + (ribs or [one.code for one in bones])
 
 
 def rib_borders(field: TissueField, entry: FloatArray, inner: FloatArray) -> Borders:
@@ -63,7 +70,7 @@ def rib_borders(field: TissueField, entry: FloatArray, inner: FloatArray) -> Bor
     high, aside = away @ up, np.abs(away @ np.cross(way, up))
     gap = np.maximum(np.linalg.norm(away, axis=1) - surface, 0.0)
     nearest = int(gap.argmin())
-    sides: dict[float, tuple[float, Place | None]] = {}
+    sides: dict[float, tuple[float | None, Place | None]] = {}
     free = np.full(len(places), True)
     if gap[nearest] < _MET_MM:
         own = _piece(field, places, nearest)
@@ -74,13 +81,22 @@ def rib_borders(field: TissueField, entry: FloatArray, inner: FloatArray) -> Bor
     for sign in {-1.0, 1.0} - set(sides):
         among = np.flatnonzero(free & (sign * high > 0.0) & (aside < _ASIDE * np.abs(high)))
         n = among[gap[among].argmin()] if len(among) else -1
-        if n < 0 or gap[n] >= LOOK_MM:
+        reach = LOOK_MM if n < 0 else float(gap[n])
+        if _ends(field, inner if n < 0 else foot[n], sign * up, reach):
+            sides[sign] = None, None
+        elif n < 0 or gap[n] >= LOOK_MM:
             sides[sign] = LOOK_MM, None
         else:
             out = away[n] / max(float(np.linalg.norm(away[n])), 1e-9)
             sides[sign] = float(gap[n]), _tuple(foot[n] + gap[n] * out)
     (below, below_at), (above, above_at) = sides[-1.0], sides[1.0]
     return Borders(below, above, below_at, above_at)
+
+
+def _ends(field: TissueField, place: FloatArray, way: FloatArray, reach_mm: float) -> bool:
+    """Tell whether what is labelled ends on the way to where a rib may be."""
+    steps = np.arange(0.0, reach_mm, 1.0)[:, None]
+    return bool((field.codes_at(place + steps * way) == UNKNOWN).any())
 
 
 def _piece(field: TissueField, places: FloatArray, number: int) -> NDArray[np.bool_]:
@@ -160,6 +176,10 @@ def _spine_at(field: TissueField, z_mm: float) -> FloatArray | None:
     middle: FloatArray = np.array([0.5 * (places[:, 0].min() + places[:, 0].max()), 0.0])
     middle[1] = places[:, 1].mean()
     return middle
+
+
+def _is_cartilage(tissue: FieldTissue) -> bool:
+    return tissue.name.casefold().replace("_", " ").startswith(("cartilage", "costal cartilage"))
 
 
 def _is_spine(tissue: FieldTissue) -> bool:

@@ -6,6 +6,7 @@ does: below -950 HU in the mean over 3 mm (LAA-950, the low attenuation area of 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -22,7 +23,7 @@ from app.planning.errors import PlanError
 from app.planning.lung_path import chest_wall
 from app.planning.lung_path.surface import crossing_angle
 from app.planning.lung_path.tubes import tubes_near
-from app.planning.lung_path.values import LungCrossing, LungPathReport, Place
+from app.planning.lung_path.values import LungCrossing, LungPathReport, Place, TubeNear
 
 EMPHYSEMA_HU: Final = -950.0
 """Lung of less than this is emphysema (LAA-950)."""
@@ -30,6 +31,7 @@ EMPHYSEMA_HU: Final = -950.0
 _SAMPLE_MM: Final = 0.25
 _MEAN_MM: Final = (-1.0, 0.0, 1.0)  # places along each axis that a mean is taken over
 _UNKNOWN_MM: Final = 0.5  # so much that nobody labelled is nothing
+_IN_LUNG: Final = ("lung", "pulmonary", "contrast")
 _LESIONS: Final = ("nodule", "lesion", "tumour", "tumor", "metastasis", "target")
 
 
@@ -53,6 +55,12 @@ class LungPaths:
             one.code
             for one in field.of_kind(TissueKind.VESSEL)
             if chest_wall.INTERCOSTAL not in one.name.casefold()
+        }
+        # others run beside the lung: through them the path leaves it
+        self._in_lung = {
+            code
+            for code in self._vessels
+            if any(word in field.tissues[code].name.casefold() for word in _IN_LUNG)
         }
         self._lesions = {
             one.code
@@ -83,7 +91,6 @@ class LungPaths:
         borders = chest_wall.rib_borders(field, entry, wall)
         spine = chest_wall.spine_mm(field, inner.begin)
         end = _before_target(parts, self._vessels | self._bronchi)
-        has_vessels, has_bronchi = bool(self._vessels), bool(self._bronchi)
         return LungPathReport(
             entry_mm=_tuple(entry),
             target_mm=_tuple(target),
@@ -100,8 +107,8 @@ class LungPaths:
             intercostal_mm=chest_wall.intercostal_mm(field, entry, wall),
             spine_mm=None if spine is None else spine[0],
             is_protected=chest_wall.is_protected(spine, borders),
-            vessels=tubes_near(field, self._vessels, inner.begin, end) if has_vessels else None,
-            bronchi=tubes_near(field, self._bronchi, inner.begin, end) if has_bronchi else None,
+            vessels=self._tubes(self._vessels, inner, end) if self._vessels else None,
+            bronchi=self._tubes(self._bronchi, inner, end) if self._bronchi else None,
         )
 
     def report_or_none(self, entry_mm: ArrayLike, target_mm: ArrayLike) -> LungPathReport | None:
@@ -122,7 +129,7 @@ class LungPaths:
     def _within(self, parts: list[Crossed], target: FloatArray) -> list[bool]:
         """Tell of each stretch whether it lies within the lung: lung, and what lies in it."""
         held = set(holding(self._field, target).tolist())
-        passed = self._vessels | self._lesions
+        passed = self._in_lung | self._lesions
         if held & self._lung:
             passed |= held
         lung = [part.code in self._lung for part in parts]
@@ -139,7 +146,7 @@ class LungPaths:
         return result
 
     def _pleura(self, parts: list[Crossed], within: list[bool]) -> tuple[LungCrossing, ...]:
-        inside = self._lung | self._vessels
+        inside = self._lung | self._in_lung
         return tuple(
             LungCrossing(part.begin_mm, self._angle(part, inside), _tuple(part.begin), goes_in=now)
             for part, now, before in zip(parts[1:], within[1:], within[:-1], strict=True)
@@ -176,9 +183,18 @@ class LungPaths:
         middle = 0.5 * (last.end + part.begin)
         return LungCrossing(0.5 * (last.end_mm + part.begin_mm), None, _tuple(middle), True, name)
 
+    def _tubes(
+        self, codes: set[int], inner: Crossed, end: FloatArray
+    ) -> tuple[TubeNear, ...]:
+        """Return what is met, or near, beyond the pleura."""
+        return tuple(
+            replace(one, depth_mm=inner.begin_mm + one.depth_mm)
+            for one in tubes_near(self._field, codes, inner.begin, end)
+        )
+
     def _lung_mm(self, parts: list[Crossed], within: list[bool]) -> float:
         """Return the length between pleura and target: lung, and what runs in it; no lesion."""
-        tubes = self._lung | self._vessels
+        tubes = self._lung | self._in_lung
         counted = [
             inside and part.code in tubes for part, inside in zip(parts, within, strict=True)
         ]

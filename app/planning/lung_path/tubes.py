@@ -33,7 +33,7 @@ def tubes_near(
         field: of the patient.
         codes: of the tubes, each tissue for itself.
         entry: of the path, LPS, shape (3,).
-        end: to which it is looked at, LPS, shape (3,).
+        end: to which it is looked at, LPS, shape (3,); depths count from `entry`.
     """
     found = [one for code in sorted(codes) for one in _of_code(field, code, entry, end)]
     return tuple(sorted(found, key=lambda one: one.depth_mm))

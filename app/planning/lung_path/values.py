@@ -82,6 +82,7 @@ class LungPathReport:
         rib_below_mm: from the path in the chest wall to the upper border of the rib below;
             `LOOK_MM` where there is none nearer. A rib that the path meets is 0 away, on the side
             on which most of it lies.
+            None too where the labels end before a rib.
         rib_above_mm: likewise to the lower border of the rib above.
         rib_below_at, rib_above_at: the rib's nearest place, LPS; None where there is none.
         intercostal_mm: from the path to the nearest intercostal vessel, at most `LOOK_MM`.

@@ -1,8 +1,8 @@
 """What the built-in patient's recipe has at any point: its distance functions, without a grid.
 
 For studies: `RecipePoints(seed).codes_at(points_mm)`, codes of `from_recipe.LOBED_TABLE`. It shares
-the shapes with the field of the recipe, the order in which they are laid, its table of codes and the
-diameter from which a vessel is a great one; it has no voxels, no table over the angle, no rule
+the shapes with the field of the recipe, the order in which they are laid, its table of codes and
+the diameter from which a vessel is a great one; it has no voxels, no table over the angle, no rule
 between neighbours, and double precision. A wrong shape or name would be wrong in both.
 """
 
