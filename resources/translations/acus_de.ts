@@ -9719,8 +9719,96 @@ Anteil</translation>
             <translation type="unfinished">Füllt die Tabelle mit dem, worauf die Nadel auf ihrem Pfad trifft.</translation>
         </message>
         <message>
+            <source>{label}: {value}</source>
+            <translation>{label}: {value}</translation>
+        </message>
+        <message>
+            <source>Pleura crossed</source>
+            <translation>Pleura durchstochen</translation>
+        </message>
+        <message>
+            <source>Fissures crossed</source>
+            <translation>Fissuren durchstochen</translation>
+        </message>
+        <message>
+            <source>Aerated lung</source>
+            <translation>Belüftete Lunge</translation>
+        </message>
+        <message>
+            <source>Of it emphysema</source>
+            <translation>Davon Emphysem</translation>
+        </message>
+        <message>
+            <source>Rib below, upper border</source>
+            <translation>Rippe darunter, Oberrand</translation>
+        </message>
+        <message>
+            <source>Rib above, lower border</source>
+            <translation>Rippe darüber, Unterrand</translation>
+        </message>
+        <message>
+            <source>Intercostal vessels</source>
+            <translation>Interkostalgefäße</translation>
+        </message>
+        <message>
+            <source>Mid-line of the spine</source>
+            <translation>Mittellinie der Wirbelsäule</translation>
+        </message>
+        <message>
+            <source>Rib protects the artery</source>
+            <translation>Rippe schützt die Arterie</translation>
+        </message>
+        <message>
+            <source>Vessels from 3 mm</source>
+            <translation>Gefäße ab 3 mm</translation>
+        </message>
+        <message>
+            <source>Bronchi from 3 mm</source>
+            <translation>Bronchien ab 3 mm</translation>
+        </message>
+        <message>
+            <source>not known</source>
+            <translation>nicht bekannt</translation>
+        </message>
+        <message>
+            <source>{angle:.0f}° at {depth:.0f} mm</source>
+            <translation>{angle:.0f}° bei {depth:.0f} mm</translation>
+        </message>
+        <message>
+            <source>at {depth:.0f} mm</source>
+            <translation>bei {depth:.0f} mm</translation>
+        </message>
+        <message>
+            <source>{count} ({places})</source>
+            <translation>{count} ({places})</translation>
+        </message>
+        <message>
+            <source>{mm:.0f} mm</source>
+            <translation>{mm:.0f} mm</translation>
+        </message>
+        <message>
+            <source>{mm:.0f} mm or more</source>
+            <translation>{mm:.0f} mm oder mehr</translation>
+        </message>
+        <message>
+            <source>met</source>
+            <translation>getroffen</translation>
+        </message>
+        <message>
             <source>yes</source>
             <translation type="unfinished">ja</translation>
+        </message>
+        <message>
+            <source>no: within {mm:.0f} cm of the spine</source>
+            <translation>nein: näher als {mm:.0f} cm an der Wirbelsäule</translation>
+        </message>
+        <message>
+            <source>{name} of {wide:.1f} mm met at {depth:.0f} mm</source>
+            <translation>{name} von {wide:.1f} mm getroffen bei {depth:.0f} mm</translation>
+        </message>
+        <message>
+            <source>{name} of {wide:.1f} mm, {away:.1f} mm off at {depth:.0f} mm</source>
+            <translation>{name} von {wide:.1f} mm, {away:.1f} mm entfernt bei {depth:.0f} mm</translation>
         </message>
         <message>
             <source>everything</source>
@@ -11155,6 +11243,38 @@ Anteil</translation>
         <message>
             <source>bone or contrast</source>
             <translation type="unfinished">Knochen oder Kontrastmittel</translation>
+        </message>
+        <message>
+            <source>right upper lobe</source>
+            <translation>rechter Oberlappen</translation>
+        </message>
+        <message>
+            <source>right middle lobe</source>
+            <translation>rechter Mittellappen</translation>
+        </message>
+        <message>
+            <source>right lower lobe</source>
+            <translation>rechter Unterlappen</translation>
+        </message>
+        <message>
+            <source>left upper lobe</source>
+            <translation>linker Oberlappen</translation>
+        </message>
+        <message>
+            <source>left lower lobe</source>
+            <translation>linker Unterlappen</translation>
+        </message>
+        <message>
+            <source>emphysema</source>
+            <translation>Emphysem</translation>
+        </message>
+        <message>
+            <source>intercostal artery</source>
+            <translation>Interkostalarterie</translation>
+        </message>
+        <message>
+            <source>intercostal vein</source>
+            <translation>Interkostalvene</translation>
         </message>
         <message>
             <source>rib</source>
@@ -15904,8 +16024,68 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Einstichpunkte kartieren</translation>
         </message>
         <message>
+            <source>Report the path through the lung</source>
+            <translation>Weg durch die Lunge prüfen</translation>
+        </message>
+        <message>
             <source>Clear</source>
             <translation type="unfinished">Leeren</translation>
+        </message>
+        <message>
+            <source>For a target in the lung: pleura and fissures crossed with their angles, lung and emphysema on the way, room to ribs and intercostal vessels, vessels and bronchi.</source>
+            <translation>Für ein Ziel in der Lunge: durchstochene Pleura und Fissuren mit ihren Winkeln, Lunge und Emphysem auf dem Weg, Abstand zu Rippen und Interkostalgefäßen, Gefäße und Bronchien.</translation>
+        </message>
+        <message>
+            <source>Your plan</source>
+            <translation>Ihr Plan</translation>
+        </message>
+        <message>
+            <source>The selected alternative stands beside your plan.</source>
+            <translation>Die gewählte Alternative steht neben Ihrem Plan.</translation>
+        </message>
+        <message>
+            <source>Select a path of the map to see its figures beside your plan's.</source>
+            <translation>Wählen Sie einen Weg der Karte, um seine Werte neben denen Ihres Plans zu sehen.</translation>
+        </message>
+        <message>
+            <source>Path through the lung</source>
+            <translation>Weg durch die Lunge</translation>
+        </message>
+        <message>
+            <source>The path is being looked up…</source>
+            <translation>Der Weg wird nachgesehen…</translation>
+        </message>
+        <message>
+            <source>Place entry and target first (keys E, T)</source>
+            <translation>Setzen Sie zuerst Einstich und Ziel (Tasten E, T)</translation>
+        </message>
+        <message>
+            <source>Reporting the path</source>
+            <translation>Weg wird geprüft</translation>
+        </message>
+        <message>
+            <source>Pleura {angle:.0f}°</source>
+            <translation>Pleura {angle:.0f}°</translation>
+        </message>
+        <message>
+            <source>Fissure</source>
+            <translation>Fissur</translation>
+        </message>
+        <message>
+            <source>Fissure {angle:.0f}°</source>
+            <translation>Fissur {angle:.0f}°</translation>
+        </message>
+        <message>
+            <source>Rib below</source>
+            <translation>Rippe darunter</translation>
+        </message>
+        <message>
+            <source>Rib above</source>
+            <translation>Rippe darüber</translation>
+        </message>
+        <message>
+            <source>{name} {mm:.1f} mm</source>
+            <translation>{name} {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Take this path</source>
@@ -15964,6 +16144,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Scoring paths</source>
             <translation type="unfinished">Pfade werden bewertet</translation>
+        </message>
+        <message>
+            <source>Alternative, {points:.0f} points</source>
+            <translation>Alternative, {points:.0f} Punkte</translation>
         </message>
         <message>
             <source>Import position of the patient (.tfm)…</source>
@@ -18554,6 +18738,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Alle</translation>
         </message>
         <message>
+            <source>Angle at the pleura of the planned path</source>
+            <translation>Winkel des geplanten Wegs zur Pleura</translation>
+        </message>
+        <message>
             <source>Angle error at the skin</source>
             <translation type="unfinished">Winkelfehler an der Haut</translation>
         </message>
@@ -18674,6 +18862,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Bewegungsökonomie</translation>
         </message>
         <message>
+            <source>Emphysema on the planned path</source>
+            <translation>Emphysem auf dem geplanten Weg</translation>
+        </message>
+        <message>
             <source>Entries that planning help tries: how many find the best path</source>
             <translation type="unfinished">Einstichpunkte, die die Planungshilfe probiert: wie viele den besten Pfad finden</translation>
         </message>
@@ -18688,6 +18880,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>First insertion</source>
             <translation type="unfinished">Erste Punktion</translation>
+        </message>
+        <message>
+            <source>Fissures on the planned path</source>
+            <translation>Fissuren auf dem geplanten Weg</translation>
         </message>
         <message>
             <source>Force at its limit</source>
@@ -18780,6 +18976,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Light before the cameras</source>
             <translation type="unfinished">Licht vor den Kameras</translation>
+        </message>
+        <message>
+            <source>Lung on the planned path</source>
+            <translation>Lunge auf dem geplanten Weg</translation>
         </message>
         <message>
             <source>Lung, oblique twice between ribs</source>
@@ -18904,6 +19104,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Room about the planned path</source>
             <translation type="unfinished">Freiraum um den geplanten Pfad</translation>
+        </message>
+        <message>
+            <source>Room to intercostal vessels</source>
+            <translation>Abstand zu Interkostalgefäßen</translation>
+        </message>
+        <message>
+            <source>Room to the ribs on the planned path</source>
+            <translation>Abstand des geplanten Wegs zu den Rippen</translation>
         </message>
         <message>
             <source>Side stiffness of layered tissue about the fulcrum</source>
@@ -20051,6 +20259,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the path was given, or no tissue field told what lies on it</source>
             <translation type="unfinished">der Pfad war vorgegeben, oder kein Gewebefeld sagte, was auf ihm liegt</translation>
+        </message>
+        <message>
+            <source>no report of a path through the lung was asked for</source>
+            <translation>nach einem Bericht über den Weg durch die Lunge war nicht gefragt</translation>
+        </message>
+        <message>
+            <source>nobody labelled what would tell it in this patient</source>
+            <translation>bei diesem Patienten hat niemand markiert, was es zeigen würde</translation>
         </message>
         <message>
             <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
@@ -22503,6 +22719,22 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
             <translation type="unfinished">dem Token von {name} wird nicht geglaubt: {reason}; niemand wurde angemeldet: nochmals versuchen, und bleibt es so, den Betreiber fragen</translation>
+        </message>
+        <message>
+            <source>entry {x:.1f},{y:.1f},{z:.1f}, {points:.0f} points of the planner</source>
+            <translation>Einstich {x:.1f},{y:.1f},{z:.1f}, {points:.0f} Punkte des Planers</translation>
+        </message>
+        <message>
+            <source>  {line}</source>
+            <translation>  {line}</translation>
+        </message>
+        <message>
+            <source>no lung is labelled in this patient</source>
+            <translation>bei diesem Patienten ist keine Lunge markiert</translation>
+        </message>
+        <message>
+            <source>this path does not go through the lung</source>
+            <translation>dieser Weg führt nicht durch die Lunge</translation>
         </message>
     </context>
 </TS>

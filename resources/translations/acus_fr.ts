@@ -9719,8 +9719,96 @@ part</translation>
             <translation type="unfinished">Remplit le tableau avec ce que l’aiguille rencontre sur sa trajectoire.</translation>
         </message>
         <message>
+            <source>{label}: {value}</source>
+            <translation>{label} : {value}</translation>
+        </message>
+        <message>
+            <source>Pleura crossed</source>
+            <translation>Plèvre traversée</translation>
+        </message>
+        <message>
+            <source>Fissures crossed</source>
+            <translation>Scissures traversées</translation>
+        </message>
+        <message>
+            <source>Aerated lung</source>
+            <translation>Poumon aéré</translation>
+        </message>
+        <message>
+            <source>Of it emphysema</source>
+            <translation>Dont emphysème</translation>
+        </message>
+        <message>
+            <source>Rib below, upper border</source>
+            <translation>Côte inférieure, bord supérieur</translation>
+        </message>
+        <message>
+            <source>Rib above, lower border</source>
+            <translation>Côte supérieure, bord inférieur</translation>
+        </message>
+        <message>
+            <source>Intercostal vessels</source>
+            <translation>Vaisseaux intercostaux</translation>
+        </message>
+        <message>
+            <source>Mid-line of the spine</source>
+            <translation>Ligne médiane du rachis</translation>
+        </message>
+        <message>
+            <source>Rib protects the artery</source>
+            <translation>La côte protège l’artère</translation>
+        </message>
+        <message>
+            <source>Vessels from 3 mm</source>
+            <translation>Vaisseaux dès 3 mm</translation>
+        </message>
+        <message>
+            <source>Bronchi from 3 mm</source>
+            <translation>Bronches dès 3 mm</translation>
+        </message>
+        <message>
+            <source>not known</source>
+            <translation>inconnu</translation>
+        </message>
+        <message>
+            <source>{angle:.0f}° at {depth:.0f} mm</source>
+            <translation>{angle:.0f}° à {depth:.0f} mm</translation>
+        </message>
+        <message>
+            <source>at {depth:.0f} mm</source>
+            <translation>à {depth:.0f} mm</translation>
+        </message>
+        <message>
+            <source>{count} ({places})</source>
+            <translation>{count} ({places})</translation>
+        </message>
+        <message>
+            <source>{mm:.0f} mm</source>
+            <translation>{mm:.0f} mm</translation>
+        </message>
+        <message>
+            <source>{mm:.0f} mm or more</source>
+            <translation>{mm:.0f} mm ou plus</translation>
+        </message>
+        <message>
+            <source>met</source>
+            <translation>touchée</translation>
+        </message>
+        <message>
             <source>yes</source>
             <translation type="unfinished">oui</translation>
+        </message>
+        <message>
+            <source>no: within {mm:.0f} cm of the spine</source>
+            <translation>non : à moins de {mm:.0f} cm du rachis</translation>
+        </message>
+        <message>
+            <source>{name} of {wide:.1f} mm met at {depth:.0f} mm</source>
+            <translation>{name} de {wide:.1f} mm rencontré à {depth:.0f} mm</translation>
+        </message>
+        <message>
+            <source>{name} of {wide:.1f} mm, {away:.1f} mm off at {depth:.0f} mm</source>
+            <translation>{name} de {wide:.1f} mm, à {away:.1f} mm, à {depth:.0f} mm de profondeur</translation>
         </message>
         <message>
             <source>everything</source>
@@ -11155,6 +11243,38 @@ part</translation>
         <message>
             <source>bone or contrast</source>
             <translation type="unfinished">os ou produit de contraste</translation>
+        </message>
+        <message>
+            <source>right upper lobe</source>
+            <translation>lobe supérieur droit</translation>
+        </message>
+        <message>
+            <source>right middle lobe</source>
+            <translation>lobe moyen droit</translation>
+        </message>
+        <message>
+            <source>right lower lobe</source>
+            <translation>lobe inférieur droit</translation>
+        </message>
+        <message>
+            <source>left upper lobe</source>
+            <translation>lobe supérieur gauche</translation>
+        </message>
+        <message>
+            <source>left lower lobe</source>
+            <translation>lobe inférieur gauche</translation>
+        </message>
+        <message>
+            <source>emphysema</source>
+            <translation>emphysème</translation>
+        </message>
+        <message>
+            <source>intercostal artery</source>
+            <translation>artère intercostale</translation>
+        </message>
+        <message>
+            <source>intercostal vein</source>
+            <translation>veine intercostale</translation>
         </message>
         <message>
             <source>rib</source>
@@ -15904,8 +16024,68 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Cartographier les points d’entrée</translation>
         </message>
         <message>
+            <source>Report the path through the lung</source>
+            <translation>Décrire le trajet dans le poumon</translation>
+        </message>
+        <message>
             <source>Clear</source>
             <translation type="unfinished">Effacer</translation>
+        </message>
+        <message>
+            <source>For a target in the lung: pleura and fissures crossed with their angles, lung and emphysema on the way, room to ribs and intercostal vessels, vessels and bronchi.</source>
+            <translation>Pour une cible dans le poumon : plèvre et scissures traversées avec leurs angles, poumon et emphysème sur le trajet, distance aux côtes et aux vaisseaux intercostaux, vaisseaux et bronches.</translation>
+        </message>
+        <message>
+            <source>Your plan</source>
+            <translation>Votre plan</translation>
+        </message>
+        <message>
+            <source>The selected alternative stands beside your plan.</source>
+            <translation>L’alternative choisie figure à côté de votre plan.</translation>
+        </message>
+        <message>
+            <source>Select a path of the map to see its figures beside your plan's.</source>
+            <translation>Choisissez un trajet de la carte pour voir ses valeurs à côté de celles de votre plan.</translation>
+        </message>
+        <message>
+            <source>Path through the lung</source>
+            <translation>Trajet dans le poumon</translation>
+        </message>
+        <message>
+            <source>The path is being looked up…</source>
+            <translation>Recherche du trajet…</translation>
+        </message>
+        <message>
+            <source>Place entry and target first (keys E, T)</source>
+            <translation>Placez d’abord le point d’entrée et la cible (touches E, T)</translation>
+        </message>
+        <message>
+            <source>Reporting the path</source>
+            <translation>Description du trajet</translation>
+        </message>
+        <message>
+            <source>Pleura {angle:.0f}°</source>
+            <translation>Plèvre {angle:.0f}°</translation>
+        </message>
+        <message>
+            <source>Fissure</source>
+            <translation>Scissure</translation>
+        </message>
+        <message>
+            <source>Fissure {angle:.0f}°</source>
+            <translation>Scissure {angle:.0f}°</translation>
+        </message>
+        <message>
+            <source>Rib below</source>
+            <translation>Côte inférieure</translation>
+        </message>
+        <message>
+            <source>Rib above</source>
+            <translation>Côte supérieure</translation>
+        </message>
+        <message>
+            <source>{name} {mm:.1f} mm</source>
+            <translation>{name} {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Take this path</source>
@@ -15964,6 +16144,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Scoring paths</source>
             <translation type="unfinished">Notation des trajectoires</translation>
+        </message>
+        <message>
+            <source>Alternative, {points:.0f} points</source>
+            <translation>Alternative, {points:.0f} points</translation>
         </message>
         <message>
             <source>Import position of the patient (.tfm)…</source>
@@ -18554,6 +18738,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tous</translation>
         </message>
         <message>
+            <source>Angle at the pleura of the planned path</source>
+            <translation>Angle du trajet prévu à la plèvre</translation>
+        </message>
+        <message>
             <source>Angle error at the skin</source>
             <translation type="unfinished">Erreur d’angle à la peau</translation>
         </message>
@@ -18674,6 +18862,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Économie de mouvement</translation>
         </message>
         <message>
+            <source>Emphysema on the planned path</source>
+            <translation>Emphysème sur le trajet prévu</translation>
+        </message>
+        <message>
             <source>Entries that planning help tries: how many find the best path</source>
             <translation type="unfinished">Points d’entrée que l’aide à la planification essaie : combien trouvent la meilleure trajectoire</translation>
         </message>
@@ -18688,6 +18880,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>First insertion</source>
             <translation type="unfinished">Première ponction</translation>
+        </message>
+        <message>
+            <source>Fissures on the planned path</source>
+            <translation>Scissures sur le trajet prévu</translation>
         </message>
         <message>
             <source>Force at its limit</source>
@@ -18780,6 +18976,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Light before the cameras</source>
             <translation type="unfinished">Lumière devant les caméras</translation>
+        </message>
+        <message>
+            <source>Lung on the planned path</source>
+            <translation>Poumon sur le trajet prévu</translation>
         </message>
         <message>
             <source>Lung, oblique twice between ribs</source>
@@ -18904,6 +19104,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Room about the planned path</source>
             <translation type="unfinished">Espace autour de la trajectoire prévue</translation>
+        </message>
+        <message>
+            <source>Room to intercostal vessels</source>
+            <translation>Distance aux vaisseaux intercostaux</translation>
+        </message>
+        <message>
+            <source>Room to the ribs on the planned path</source>
+            <translation>Distance du trajet prévu aux côtes</translation>
         </message>
         <message>
             <source>Side stiffness of layered tissue about the fulcrum</source>
@@ -20051,6 +20259,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>the path was given, or no tissue field told what lies on it</source>
             <translation type="unfinished">la trajectoire était donnée, ou aucun champ de tissus n’a dit ce qui s’y trouve</translation>
+        </message>
+        <message>
+            <source>no report of a path through the lung was asked for</source>
+            <translation>aucune description du trajet dans le poumon n’était demandée</translation>
+        </message>
+        <message>
+            <source>nobody labelled what would tell it in this patient</source>
+            <translation>personne n’a marqué chez ce patient ce qui le dirait</translation>
         </message>
         <message>
             <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
@@ -22503,6 +22719,22 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>the token of {name} is not believed: {reason}; nobody was signed in: try again, and if it stays so ask who runs it</source>
             <translation type="unfinished">le jeton de {name} n'est pas cru : {reason} ; personne n'a été connecté : réessayer, et si cela dure demander à qui le gère</translation>
+        </message>
+        <message>
+            <source>entry {x:.1f},{y:.1f},{z:.1f}, {points:.0f} points of the planner</source>
+            <translation>entrée {x:.1f},{y:.1f},{z:.1f}, {points:.0f} points du planificateur</translation>
+        </message>
+        <message>
+            <source>  {line}</source>
+            <translation>  {line}</translation>
+        </message>
+        <message>
+            <source>no lung is labelled in this patient</source>
+            <translation>aucun poumon n’est marqué chez ce patient</translation>
+        </message>
+        <message>
+            <source>this path does not go through the lung</source>
+            <translation>ce trajet ne passe pas par le poumon</translation>
         </message>
     </context>
 </TS>
