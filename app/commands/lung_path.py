@@ -11,12 +11,20 @@ from app.core.messages import sentence
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
     from app.core.progress import Progress
+    from app.imaging.field import TissueField
     from app.imaging.structures.structure import Structure
     from app.imaging.volume import Volume
+    from app.planning.lung_path.reporting import LungPaths
     from app.planning.lung_path.values import LungPathReport
 
 ABOUT_MM: Final = 125.0
 """The tissue field reaches so far about the target: no path that is scored is longer."""
+
+DEPTH_M: Final = 0.12
+"""So deep a needle is taken to come."""
+
+MOST: Final = 8
+"""So many entries of the map are looked at."""
 
 
 def lung_answer(
@@ -45,11 +53,8 @@ def lung_answer(
         report = paths.report(*ends)
         others = []
         if alternatives:
-            from app.planning.lung_path.alternatives import alternatives_of
-
-            others = alternatives_of(
-                paths, field, volume, ends[1], alternatives, progress.part(share, 1.0)
-            )
+            rest = progress.part(share, 1.0)
+            others = _alternatives(paths, field, volume, ends[1], alternatives, rest)
         return field.digest, report, others
 
     digest, report, others = with_progress(work)
@@ -73,3 +78,33 @@ def lung_answer(
         )
         shown += [sentence("  {line}", line=line) for line in lung_sentences(other)]
     return Answer(facts, shown)
+
+
+def _alternatives(
+    paths: LungPaths,
+    field: TissueField,
+    volume: Volume,
+    target_mm: FloatArray,
+    count: int,
+    progress: Progress,
+) -> list[tuple[float, LungPathReport]]:
+    """Return planner's points and report of the best entries, whatever a device could reach."""
+    import numpy as np
+
+    from app.imaging.body import find_body
+    from app.imaging.skin import skin_points
+    from app.planning.limits import ReachLimits
+    from app.planning.paths import best, score_paths
+    from app.planning.placement import Placement
+
+    body = find_body(volume, progress.part(0.0, 0.3))
+    skin = skin_points(body, progress=progress.part(0.3, 0.5))
+    free = ReachLimits(np.zeros(3), np.pi, DEPTH_M, lambda x, y: True)
+    rest = progress.part(0.5, 1.0)
+    scores = score_paths(target_mm, skin, body, (), Placement(), free, progress=rest, tissues=field)
+    found: list[tuple[float, LungPathReport]] = []
+    for number in best(scores, MOST):
+        report = paths.report_or_none(scores.entries_mm[number], target_mm)
+        if report is not None and len(found) < count:
+            found.append((float(scores.score[number]), report))
+    return found

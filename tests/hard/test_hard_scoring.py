@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.exercises.parts import OF_OWN_PLANS
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
-from app.exercises.parts import OF_OWN_PLANS
 from app.scoring.errors import TrajectoryError
 from app.scoring.metrics import available
 from app.scoring.paths import raw_length, smooth_length

@@ -10,13 +10,12 @@ from app.imaging.field import TissueKind
 from app.imaging.field.from_recipe import field_of_recipe
 from app.imaging.field.grid import FieldGrid
 from app.imaging.phantom import organs
-from app.imaging.phantom.airways import WALL_SHARE, emphysema, lung_tubes
-from app.imaging.phantom.intercostals import ARTERY_MM, intercostals
 from app.imaging.phantom.lesion import make_patient
 from app.imaging.phantom.lobes import LOBES, RIGHT_LOWER, fissures, lobes
 from app.imaging.phantom.patient import draw_patient
 from app.imaging.phantom.series import Scan
 from app.imaging.phantom.skeleton import RIBS
+from app.imaging.phantom.thorax import ARTERY_MM, WALL_SHARE, emphysema, intercostals, lung_tubes
 from app.studies.references.recipe_points import RecipePoints
 
 BEFORE = {

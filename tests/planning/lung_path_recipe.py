@@ -59,7 +59,9 @@ class Recipe:
     def _rib(self, rib):
         """Points on a rib's surface, both sides and its neck, LPS [mm]."""
         p, turn = np.meshgrid(
-            np.arange(0.1, rib.cartilage_end, 0.0011), np.linspace(0.0, 2.0 * np.pi, 49)[:-1], indexing="ij"
+            np.arange(0.1, rib.cartilage_end, 0.0011),
+            np.linspace(0.0, 2.0 * np.pi, 49)[:-1],
+            indexing="ij",
         )
         z = rib.z(p) + 6.4 * np.sin(turn)
         clouds = []

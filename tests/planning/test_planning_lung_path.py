@@ -12,8 +12,8 @@ from app.imaging.volume import Volume
 from app.planning.errors import PlanError
 from app.planning.lung_path.reporting import LungPaths
 from app.planning.lung_path.sentences import lung_sentences
-from app.planning.lung_path.tubes import diameter_mm
 from app.planning.lung_path.values import LOOK_MM, LungPathReport
+from app.planning.lung_path.walls import diameter_mm
 
 Kind = TissueKind
 PLEURA, FISSURE = 25.0, 55.0

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import pytest
 
 from app.planning.judged import JudgedPlan
-from app.scoring.errors import MetricNotAskedError, MetricUnavailableError
 from app.planning.lung_path.values import LungCrossing, LungPathReport
+from app.scoring.errors import MetricNotAskedError, MetricUnavailableError
 from app.scoring.metrics import (
     plan_clearance,
     plan_score,

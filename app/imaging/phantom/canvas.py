@@ -5,10 +5,10 @@ from typing import Final
 import numpy as np
 
 from app.imaging.phantom import organs, skeleton, trunk
-from app.imaging.phantom.airways import WALL_SHARE
 from app.imaging.phantom.grid import ANGLES, Box, Grid
 from app.imaging.phantom.lobes import fissure_lines
 from app.imaging.phantom.shapes import Field, cover, smoothstep
+from app.imaging.phantom.thorax import WALL_SHARE
 from app.imaging.phantom.tubes import Tubes, cover_discs
 
 AIR, FAT, MUSCLE, SKIN = -1000.0, -104.0, 60.0, 35.0

@@ -75,7 +75,7 @@ class Patient:
 
     @property
     def has_lobes(self) -> bool:
-        """Whether fissures, bronchi, emphysema and intercostal vessels are known of the patient.
+        """Return whether fissures, bronchi, emphysema and intercostal vessels are known.
 
         All of it has its own random numbers, so that nothing else of a patient depends on it.
         """

@@ -6,9 +6,8 @@ import numpy as np
 
 from app.core.arrays import FloatArray, unit
 from app.imaging.phantom import organs
-from app.imaging.phantom.airways import emphysema, lung_tubes
-from app.imaging.phantom.intercostals import intercostals
 from app.imaging.phantom.patient import Patient
+from app.imaging.phantom.thorax import emphysema, intercostals, lung_tubes
 from app.imaging.phantom.trunk import diaphragm_height
 from app.imaging.phantom.tubes import Tubes, joined, tube
 

@@ -21,9 +21,8 @@ from app.imaging.interpolation import interpolate
 from app.imaging.volume import Volume
 from app.planning.errors import PlanError
 from app.planning.lung_path import chest_wall
-from app.planning.lung_path.surface import crossing_angle
-from app.planning.lung_path.tubes import tubes_near
 from app.planning.lung_path.values import LungCrossing, LungPathReport, Place, TubeNear
+from app.planning.lung_path.walls import crossing_angle, tubes_near
 
 EMPHYSEMA_HU: Final = -950.0
 """Lung of less than this is emphysema (LAA-950)."""
@@ -183,9 +182,7 @@ class LungPaths:
         middle = 0.5 * (last.end + part.begin)
         return LungCrossing(0.5 * (last.end_mm + part.begin_mm), None, _tuple(middle), True, name)
 
-    def _tubes(
-        self, codes: set[int], inner: Crossed, end: FloatArray
-    ) -> tuple[TubeNear, ...]:
+    def _tubes(self, codes: set[int], inner: Crossed, end: FloatArray) -> tuple[TubeNear, ...]:
         """Return what is met, or near, beyond the pleura."""
         return tuple(
             replace(one, depth_mm=inner.begin_mm + one.depth_mm)

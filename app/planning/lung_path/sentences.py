@@ -13,7 +13,8 @@ MOST_TUBES = 4
 def lung_sentences(report: LungPathReport) -> tuple[str, ...]:
     """Say what a path to a target in the lung goes through, a line each."""
     return tuple(
-        sentence("{label}: {value}", label=label, value=value) for label, value in lung_rows(report)
+        sentence("{label}: {figure}", label=label, figure=figure)
+        for label, figure in lung_rows(report)
     )
 
 
