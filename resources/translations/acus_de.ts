@@ -12137,12 +12137,12 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Nichts hat Punkte gekostet.</translation>
         </message>
         <message>
-            <source>{label}: {figure} cost {points}; {expert} or more costs none.</source>
-            <translation type="unfinished">{label}: {figure} kostete {points}; ab {expert} kostet es nichts.</translation>
+            <source>{label}: {value} cost {points}; {expert} or more costs none.</source>
+            <translation type="unfinished">{label}: {value} kostete {points}; ab {expert} kostet es nichts.</translation>
         </message>
         <message>
-            <source>{label}: {figure} cost {points}; {expert} or less costs none.</source>
-            <translation type="unfinished">{label}: {figure} kostete {points}; bis {expert} kostet es nichts.</translation>
+            <source>{label}: {value} cost {points}; {expert} or less costs none.</source>
+            <translation type="unfinished">{label}: {value} kostete {points}; bis {expert} kostet es nichts.</translation>
         </message>
         <message numerus="yes">
             <source>{n} points</source>

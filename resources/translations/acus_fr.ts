@@ -12137,11 +12137,11 @@ Lettres : directions du patient
             <translation type="unfinished">Rien n’a coûté de points.</translation>
         </message>
         <message>
-            <source>{label}: {figure} cost {points}; {expert} or more costs none.</source>
+            <source>{label}: {value} cost {points}; {expert} or more costs none.</source>
             <translation type="unfinished">{label} : {value} a coûté {points} ; à partir de {expert}, rien.</translation>
         </message>
         <message>
-            <source>{label}: {figure} cost {points}; {expert} or less costs none.</source>
+            <source>{label}: {value} cost {points}; {expert} or less costs none.</source>
             <translation type="unfinished">{label} : {value} a coûté {points} ; jusqu’à {expert}, rien.</translation>
         </message>
         <message numerus="yes">
