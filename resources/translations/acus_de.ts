@@ -16088,6 +16088,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>{name} {mm:.1f} mm</translation>
         </message>
         <message>
+            <source>Rib met</source>
+            <translation>Rippe getroffen</translation>
+        </message>
+        <message>
             <source>Take this path</source>
             <translation type="unfinished">Diesen Pfad nehmen</translation>
         </message>

@@ -16088,6 +16088,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>{name} {mm:.1f} mm</translation>
         </message>
         <message>
+            <source>Rib met</source>
+            <translation>Côte touchée</translation>
+        </message>
+        <message>
             <source>Take this path</source>
             <translation type="unfinished">Prendre cette trajectoire</translation>
         </message>

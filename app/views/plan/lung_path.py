@@ -295,7 +295,8 @@ def places_of(report: LungPathReport) -> tuple[MetPlace, ...]:
     )
     for at, mm, name in borders:
         if at is not None and mm is not None:
-            found.append(_place("bone", tr("{name} {mm:.1f} mm", name=name, mm=mm), at))
+            words = tr("{name} {mm:.1f} mm", name=name, mm=mm) if mm > 0.0 else tr("Rib met")
+            found.append(_place("bone", words, at))
     for tube in (*(report.vessels or ()), *(report.bronchi or ())):
         if tube.away_mm <= 0.0:
             word = translated(tissue_words(tube.name))
