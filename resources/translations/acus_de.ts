@@ -16150,8 +16150,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pfade werden bewertet</translation>
         </message>
         <message>
-            <source>Alternative, {points:.0f} points</source>
-            <translation>Alternative, {points:.0f} Punkte</translation>
+            <source>Alternative
+{points:.0f} points</source>
+            <translation>Alternative
+{points:.0f} Punkte</translation>
         </message>
         <message>
             <source>Import position of the patient (.tfm)…</source>

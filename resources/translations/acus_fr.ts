@@ -16150,8 +16150,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Notation des trajectoires</translation>
         </message>
         <message>
-            <source>Alternative, {points:.0f} points</source>
-            <translation>Alternative, {points:.0f} points</translation>
+            <source>Alternative
+{points:.0f} points</source>
+            <translation>Alternative
+{points:.0f} points</translation>
         </message>
         <message>
             <source>Import position of the patient (.tfm)…</source>

@@ -385,7 +385,7 @@ class PathsFeature(Feature):
         if self.scores is not None:
             entry = self.scores.entries_mm[number]
             self._views.viewing.set_cursor(entry)
-            name = tr("Alternative, {points:.0f} points", points=self.scores.score[number])
+            name = tr("Alternative\n{points:.0f} points", points=self.scores.score[number])
             self.lung.show_alternative(entry, name)
 
     def _take(self, number: int) -> None:
