@@ -30,7 +30,6 @@ WALL = datetime(2026, 1, 15, 9, 31, 22, 418000, tzinfo=UTC)
 EXERCISE = SimpleNamespace(
     effects={},
     drill=None,
-    procedure=None,
     is_own_plan=False,
     procedure=None,
     asks_lung_path=False,
