@@ -37,7 +37,7 @@ def test_what_is_not_asked_for_is_not_there() -> None:
 
 def test_complications_are_seen_in_control_scans_alone() -> None:
     assert changed().procedure.complications.emphysema is None
-    with pytest.raises(ValueError, match="guidance.mode: control_ct"):
+    with pytest.raises(ValueError, match=r"guidance\.mode: control_ct"):
         changed(guidance={"mode": "live"})
     with pytest.raises(ValueError, match="use tissue: field"):
         changed(tissue="layers")
