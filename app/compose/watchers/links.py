@@ -329,8 +329,9 @@ class LiveBoard:
         from app.imaging.fallen_lung import changed_ct
         from app.imaging.scanned import scan_image  # compiled parts: only who scans waits for them
 
-        field = watched.run.rig.trainer.tissues
-        volume = changed_ct(volume, field, scan.inside, scan.tissue_range_mm)
+        if scan.inside is not None:
+            field = watched.run.rig.trainer.tissues
+            volume = changed_ct(volume, field, scan.inside, scan.tissue_range_mm)
         wall = self._clock.now() - watched.run.rig.trainer.time + scan.time
         picture = scan_image(volume, scan.order, scan.needle, scan.streak, scan.shift_mm)
         told = LiveScan(scan.number, wall, picture.hu, picture.affine_mm)

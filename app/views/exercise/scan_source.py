@@ -189,7 +189,8 @@ class ScanSource(QObject):
             return
         self._busy, self._waiting = True, False
         self._panel.set_busy(True)
-        volume, streak, field = patient.volume, scan.streak, run.trainer.tissues
+        volume, streak = patient.volume, scan.streak
+        field = None if scan.inside is None else run.trainer.tissues
 
         def make(_: Progress) -> Volume:
             from app.imaging.fallen_lung import changed_ct
