@@ -39,6 +39,11 @@ def test_the_monitor_is_shown_and_the_answers_so_far(page) -> None:
     assert [shown.choice.itemData(n) for n in range(shown.choice.count())] == list(Reaction)
 
 
+def test_the_longest_answer_does_not_widen_the_rail(page) -> None:
+    page.panel.show_patient(ComplicationsState(Vitals()), True)
+    assert page.panel.choice.minimumSizeHint().width() < 200
+
+
 def test_keys_and_mouse_say_that_something_is_wrong_and_do_what_is_chosen(page) -> None:
     shown, noticed, answered = page.panel, [], []
     shown.noticed.connect(lambda: noticed.append(True))
