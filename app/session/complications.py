@@ -49,7 +49,7 @@ from app.scoring.complications.marks import ComplicationMarks, Demand, Given
 from app.scoring.complications.risk import calibrated
 from app.scoring.errors import TrajectoryError
 from app.scoring.odds import DEEP_MM
-from app.session.lung_watch import LesionFacts, LungWatch, lesion_facts
+from app.session.lung_watch import STEP_MM, LesionFacts, LungWatch, lesion_facts
 from app.session.needle_now import NeedleNow
 from app.simulation.bound_field import BoundField
 
@@ -63,6 +63,9 @@ KIND: Final = "complication"
 VERSION: Final = 1
 
 NEVER: Final = float("inf")
+
+LOOK_S: Final = 0.2
+"""A tip that stands still is looked at so often, as the tissue about it breathes [s]."""
 
 VERDICT_WORDS: Final = {
     AnswerWorth.RIGHT: sentence("right"),
@@ -235,6 +238,7 @@ class Complications:
         self._state = ComplicationsState(Vitals())
         self._shown: FloatArray | None = None
         self._aspirations = 0
+        self._looked: tuple[FloatArray, float] | None = None
 
     _seen: float | None
 
@@ -355,9 +359,9 @@ class Complications:
         depth = needle.depth / MILLIMETRE
         to_patient = case.placed.T_world_patient.inverse()
         rough = to_patient @ needle.p_tip / MILLIMETRE
-        if depth > 0.0 and not watch.moved(rough, depth):
+        if not self._is_to_be_looked_at(rough, depth):
             return []
-        tip = self._at_rest(needle)
+        tip = self._at_rest(needle) if depth > 0.0 else rough
         changed = watch.look(tip, depth)
         self._thick_in |= is_outer and watch.in_lung and case.gauge <= THICK_GAUGE
         if watch.in_lung and is_outer and not case.samples:
@@ -380,6 +384,18 @@ class Complications:
                 facts=facts.document(),
             )
         ]
+
+    def _is_to_be_looked_at(self, rough_mm: FloatArray, depth_mm: float) -> bool:
+        """Return whether the tip has moved, or the tissue about it for a while."""
+        place, when = self._looked or (None, -NEVER)
+        if depth_mm <= 0.0:
+            self._looked = None
+            return place is not None
+        rests = place is not None and float(np.linalg.norm(rough_mm - place)) < STEP_MM
+        if rests and self._clock - when < LOOK_S:
+            return False
+        self._looked = rough_mm, self._clock
+        return True
 
     def _may_bleed(self, needle: NeedleNow) -> None:
         if (

@@ -72,12 +72,6 @@ class LungWatch:
         """Return whether somebody labelled bullae."""
         return bool(self._bulla)
 
-    def moved(self, tip_mm: FloatArray, depth_mm: float) -> bool:
-        """Return whether the tip has moved enough since it was looked at to be looked at again."""
-        if self._last is None:
-            return depth_mm > 0.0
-        return bool(np.linalg.norm(tip_mm - self._last[0]) >= STEP_MM)
-
     def look(self, tip_mm: ArrayLike, depth_mm: float) -> bool:
         """Follow the tip to where it is, where the tissue about it rests; False if nothing changed.
 

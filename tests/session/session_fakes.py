@@ -31,7 +31,6 @@ EXERCISE = SimpleNamespace(
     effects={},
     drill=None,
     is_own_plan=False,
-    procedure=None,
     asks_lung_path=False,
     bands={},
     bands_for=lambda hand: None,

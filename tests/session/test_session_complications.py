@@ -2,16 +2,20 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from chest import DOWN, ENTRY, TARGET, chest
 from field_rig import ball
+from session_fakes import EXERCISE, Bench
 
 from app.core.events import Event
-from app.exercises.procedure import ComplicationsPart
+from app.exercises.guidance import Purpose
+from app.exercises.procedure import ComplicationsPart, ProcedurePart
 from app.imaging.field import TissueKind
 from app.imaging.inside import lung_shape
+from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.complications.answers import Kind, Reaction
@@ -19,6 +23,7 @@ from app.scoring.complications.factors import Lying
 from app.scoring.complications.lots import Lots
 from app.scoring.procedure import ProcedureMarks
 from app.scoring.trajectory import Trajectory
+from app.session import trainer
 from app.session.complications import (
     KIND,
     ComplicationCase,
@@ -27,9 +32,11 @@ from app.session.complications import (
     lying_of,
     marks_of_complications,
 )
-from app.session.control_scan import ControlScan
+from app.session.control_scan import ControlScan, scans_of
+from app.session.errors import ProcedureNotPossibleError
 from app.session.lung_watch import LungWatch, lesion_facts
 from app.session.needle_now import NeedleNow
+from app.session.recording import read_recording
 from app.session.scripted_answers import MANNERS, ScriptedAnswers
 from app.simulation.bound_field import BoundField
 
@@ -386,3 +393,74 @@ def test_a_scan_of_a_record_is_read_with_what_it_showed() -> None:
     scan = ControlScan.of(Event(1.0, "scan", "", shown))
     assert scan.data()["inside"] == json.loads(json.dumps(shown["inside"]))
     assert Kind.PNEUMOTHORAX in {row.kind for row in attempt.happens.rows}
+
+
+@pytest.fixture
+def bench(tmp_path, monkeypatch):
+    """A trainer in virtual time whose patient has the chest's lung on his plan."""
+    bench, part = Bench(tmp_path), ProcedurePart(complications=ComplicationsPart(bleeding=False))
+    placed = bench.trainer._placed
+    shifted = FIELD.affine_mm.copy()
+    shifted[:3, 3] += placed.plan.target_mm - TARGET
+    field = replace(FIELD, affine_mm=shifted)
+    bench.trainer._exercise = SimpleNamespace(
+        **vars(EXERCISE) | {"procedure": part, "purpose": Purpose.PRACTICE}
+    )
+    bench.trainer._case = replace(
+        case(bleeding=False),
+        placed=placed,
+        field=field,
+        bound=BoundField(field, placed.T_world_patient, placed.p_target),
+        shape=lung_shape(field, placed.plan.target_mm, DOWN),
+    )
+    monkeypatch.setattr(trainer, "attempt_seed", lambda *_: LARGE)
+    yield bench
+    bench.trainer.close()
+
+
+def test_an_attempt_runs_shows_records_and_scores_what_happens(bench) -> None:
+    running = bench.trainer
+    bench.run(0.2)
+    running.begin("s")
+    bench.insertion(0.055)
+    for _ in range(5):
+        bench.run(20.0)
+    assert running.snapshot().complications.vitals.saturation < 97
+    running.scan(ScanOrder(310.2))
+    running.notice()
+    running.answer(Reaction.GO_ON)
+    running.answer(Reaction.DRAIN)
+    told = [e for e in running.events.drain() if e.kind == KIND]
+    assert [e.data["step"] for e in told] == ["notice", "answer", "answer"]  # onset is not told
+    result = running.end()
+    marks = result.trajectory.complications()
+    assert marks.begun[0][0] is Kind.PNEUMOTHORAX
+    assert marks.fallen(marks.until) is not None
+    assert 0.0 < marks.waits()[0] < 600.0
+    recording = read_recording(result.record)
+    assert recording.trajectory().complications() == marks  # from the record alone
+    (scan,) = scans_of(recording.events)
+    assert scan.inside.share > 0.1
+    begun = next(e.data for e in recording.events if e.kind == KIND)
+    assert Lots.read(begun["lots"]) == Lots.of(5, LARGE)
+
+
+def test_outside_an_attempt_nothing_can_be_answered(bench) -> None:
+    with pytest.raises(ProcedureNotPossibleError, match="begin an attempt"):
+        bench.trainer.answer(Reaction.STOP)
+
+
+def test_an_attempt_that_does_not_ask_has_no_trace_of_complications(tmp_path) -> None:
+    plain = Bench(tmp_path)
+    plain.run(0.2)
+    plain.trainer.begin("s")
+    plain.insertion(0.04)
+    plain.trainer.scan(ScanOrder(310.2))
+    assert plain.trainer.snapshot().complications is None
+    with pytest.raises(ProcedureNotPossibleError):
+        plain.trainer.notice()
+    result = plain.trainer.end()
+    events = read_recording(result.record).events
+    assert not [e for e in events if e.kind == KIND]
+    assert not [e for e in events if e.kind == "scan" and "inside" in e.data]
+    plain.trainer.close()

@@ -327,7 +327,8 @@ class LiveBoard:
 
     def _picture(self, scan: ControlScan, watched: _WatchedRun, volume: Volume) -> None:
         wall = self._clock.now() - watched.run.rig.trainer.time + scan.time
-        picture = scan.picture(volume, watched.run.rig.trainer.tissues)
+        field = None if scan.inside is None else watched.run.rig.trainer.tissues
+        picture = scan.picture(volume, field)
         told = LiveScan(scan.number, wall, picture.hu, picture.affine_mm)
         if self._watched is watched:
             self._scan = told

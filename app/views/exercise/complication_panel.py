@@ -75,6 +75,11 @@ class ComplicationPanel(QWidget):
         self.choice.setAccessibleName(tr("What is to be done"))
         self.choice.setToolTip(tr("What is to be done about a complication, by its size"))
         self.choice.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        # A rail is narrower than the longest answer; the open list shows it whole.
+        self.choice.setSizeAdjustPolicy(
+            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        )
+        self.choice.setMinimumContentsLength(8)
         for answer in Reaction:
             self.choice.addItem(translated(ANSWER_WORDS[answer]), answer)
         self.notice.clicked.connect(self.noticed)

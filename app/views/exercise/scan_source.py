@@ -199,7 +199,8 @@ class ScanSource(QObject):
             return
         self._busy, self._waiting = True, False
         self._panel.set_busy(True)
-        volume, field = patient.volume, run.trainer.tissues
+        volume = patient.volume
+        field = None if scan.inside is None else run.trainer.tissues
 
         def make(_: Progress) -> Volume:
             return scan.picture(volume, field)
