@@ -2848,6 +2848,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation>procedure : ce qu'une étape rencontre se lit dans le patient : utilisez tissue: field</translation>
         </message>
         <message>
+            <source>procedure: electrodes lie about a path that the file names: give plan entry_mm and target_mm</source>
+            <translation>procedure : les électrodes sont autour d’un trajet que le fichier nomme : donnez plan avec entry_mm et target_mm</translation>
+        </message>
+        <message>
             <source>procedure: a tool that touches targets takes no steps</source>
             <translation>procedure : un outil qui touche des cibles ne connaît pas d'étapes</translation>
         </message>
@@ -12749,12 +12753,72 @@ Lettres : directions du patient
             <translation type="unfinished">la droite du patient</translation>
         </message>
         <message>
+            <source>The lesion's surface unrolled: margin in mm; hatched where less than wanted</source>
+            <translation>La surface de la lésion déroulée : marge en mm ; hachurée où elle est moindre que voulue</translation>
+        </message>
+        <message>
+            <source>&lt;0</source>
+            <translation>&lt;0</translation>
+        </message>
+        <message>
             <source>front</source>
             <translation type="unfinished">l’avant</translation>
         </message>
         <message>
             <source>back</source>
             <translation type="unfinished">l’arrière</translation>
+        </message>
+        <message>
+            <source>Ablation: planned against reached</source>
+            <translation>Ablation : prévu et atteint</translation>
+        </message>
+        <message>
+            <source>Margin planned [mm]</source>
+            <translation>Marge prévue [mm]</translation>
+        </message>
+        <message>
+            <source>Margin reached [mm]</source>
+            <translation>Marge atteinte [mm]</translation>
+        </message>
+        <message>
+            <source>Ablation</source>
+            <translation>Ablation</translation>
+        </message>
+        <message>
+            <source>Planned</source>
+            <translation>Prévu</translation>
+        </message>
+        <message>
+            <source>Reached</source>
+            <translation>Atteint</translation>
+        </message>
+        <message>
+            <source>▲ Zones ex vivo: without blood, larger than in a patient</source>
+            <translation>▲ Zones ex vivo : sans sang, plus grandes que chez un patient</translation>
+        </message>
+        <message>
+            <source>Least margin (wanted {mm:g} mm)</source>
+            <translation>Marge minimale (voulue {mm:g} mm)</translation>
+        </message>
+        <message>
+            <source>Lesion ablated</source>
+            <translation>Lésion détruite</translation>
+        </message>
+        <message>
+            <source>{share:.1f} %</source>
+            <translation>{share:.1f} %</translation>
+        </message>
+        <message>
+            <source>Electrode {n}, off its place</source>
+            <translation>Électrode {n}, écart de sa place</translation>
+        </message>
+        <message>
+            <source>{power:g} W, {minutes:g} min</source>
+            <translation>{power:g} W, {minutes:g} min</translation>
+        </message>
+        <message>
+            <source>Generator</source>
+            <translation>Générateur</translation>
         </message>
         <message>
             <source>head</source>
@@ -14031,6 +14095,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Target {n} of {of}: {way}</source>
             <translation type="unfinished">Cible {n} sur {of} : {way}</translation>
+        </message>
+        <message>
+            <source>Draw the needle out of the skin, turn it to {n}</source>
+            <translation>Retirez l’aiguille de la peau, tournez-la vers {n}</translation>
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
@@ -18618,6 +18686,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Un bras simulé exécute le plan</translation>
         </message>
         <message>
+            <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
+            <translation>Détruisez la lésion du foie avec 5 mm de foie autour. Amenez l’aiguille à la première place et laissez-y l’électrode (J), retirez l’aiguille de la peau, tournez-la vers le trajet suivant, et ainsi pour les trois. Puis démarrez le générateur (J). Les zones suivent de la vraie place des électrodes : prévus sont 40 W pendant 20 min.</translation>
+        </message>
+        <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
             <translation type="unfinished">Adversaire : essais récompensés qui ne devraient pas l’être</translation>
         </message>
@@ -18770,6 +18842,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Économie de mouvement</translation>
         </message>
         <message>
+            <source>Electrode spacing error</source>
+            <translation>Erreur d’écart des électrodes</translation>
+        </message>
+        <message>
             <source>Entries that planning help tries: how many find the best path</source>
             <translation type="unfinished">Points d’entrée que l’aide à la planification essaie : combien trouvent la meilleure trajectoire</translation>
         </message>
@@ -18874,6 +18950,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Tissu latéral : aiguille rigide sur ressorts face à une poutre sur fondation élastique</translation>
         </message>
         <message>
+            <source>Least margin</source>
+            <translation>Marge minimale</translation>
+        </message>
+        <message>
             <source>Least squares of the band's whole picture</source>
             <translation type="unfinished">Moindres carrés sur toute l’image de la bande</translation>
         </message>
@@ -18888,6 +18968,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Light before the cameras</source>
             <translation type="unfinished">Lumière devant les caméras</translation>
+        </message>
+        <message>
+            <source>Liver ablation with three needles</source>
+            <translation>Ablation du foie à trois aiguilles</translation>
         </message>
         <message>
             <source>Lung biopsy in six units</source>
@@ -19008,6 +19092,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Rate of the recorded path</source>
             <translation type="unfinished">Cadence du trajet enregistré</translation>
+        </message>
+        <message>
+            <source>Reached beside the organ</source>
+            <translation>Atteint hors de l’organe</translation>
         </message>
         <message>
             <source>Read the planning CT, align the needle by the plan and take control scans where you would in the scanner room: choose table position and 3 to 5 slices, press the pedal (S). A tip outside the slices is not seen. There is no other view of the needle and no guidance by the robot. Use few scans. The patient holds the breath.</source>
@@ -19208,6 +19296,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Vessels touched</source>
             <translation type="unfinished">Vaisseaux touchés</translation>
+        </message>
+        <message>
+            <source>Vessels within 3 mm</source>
+            <translation>Vaisseaux à moins de 3 mm</translation>
         </message>
         <message>
             <source>Views of a board that calibrate a camera</source>
@@ -19919,6 +20011,32 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
   refused {kind}: {reason}</source>
             <translation type="unfinished">
   refusé {kind} : {reason}</translation>
+        </message>
+        <message>
+            <source>
+  ablates with {electrodes} electrodes, one after another through one entry, {power:g} W for {minutes:g} min</source>
+            <translation>
+  détruit avec {electrodes} électrodes, l’une après l’autre par une entrée, {power:g} W pendant {minutes:g} min</translation>
+        </message>
+        <message>
+            <source>generator</source>
+            <translation>générateur</translation>
+        </message>
+        <message>
+            <source>source</source>
+            <translation>source</translation>
+        </message>
+        <message>
+            <source>{margin:.1f} mm planned of {wanted:g} wanted, {share:.1f} % of the lesion</source>
+            <translation>{margin:.1f} mm prévus de {wanted:g} voulus, {share:.1f} % de la lésion</translation>
+        </message>
+        <message>
+            <source>margin</source>
+            <translation>marge</translation>
+        </message>
+        <message>
+            <source>{vessel} lies within 3 mm of the zone: what it cools is not reckoned</source>
+            <translation>{vessel} est à moins de 3 mm de la zone : son refroidissement n’est pas compté</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -22645,6 +22763,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>diagnostic_mm {diagnostic_mm:g} dépasse ce que contient la plus longue encoche, {longest:g} mm : aucun prélèvement ne pourrait suffire</translation>
         </message>
         <message>
+            <source>procedure: samples and ablation are two exercises: leave one out</source>
+            <translation>procedure : prélèvements et ablation sont deux exercices : omettez l’un</translation>
+        </message>
+        <message>
             <source>procedure names no step; there are {names}</source>
             <translation>procedure ne nomme aucune étape ; il y a {names}</translation>
         </message>
@@ -22669,8 +22791,32 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>la cible est dans {tissue} : personne n'y a marqué de lésion, aucun prélèvement ne peut donc être jugé ; marquez-la comme structure de type cible</translation>
         </message>
         <message>
+            <source>{power:g} W for {minutes:g} min stands in the table twice: leave one out</source>
+            <translation>{power:g} W pendant {minutes:g} min est deux fois dans la table : omettez l’un</translation>
+        </message>
+        <message>
+            <source>{power:g} W for {minutes:g} min: a zone {long_mm:g} mm long cannot reach {ahead:g} mm ahead of the tip</source>
+            <translation>{power:g} W pendant {minutes:g} min : une zone longue de {long_mm:g} mm ne peut dépasser la pointe de {ahead:g} mm</translation>
+        </message>
+        <message>
+            <source>{title}: ex vivo, {tissue}</source>
+            <translation>{title} : ex vivo, {tissue}</translation>
+        </message>
+        <message>
+            <source>{title}: in vivo, {tissue}</source>
+            <translation>{title} : in vivo, {tissue}</translation>
+        </message>
+        <message>
+            <source>{power:g} W for {minutes:g} min is not in the generator's table; there are {all}</source>
+            <translation>{power:g} W pendant {minutes:g} min n’est pas dans la table du générateur ; il y a {all}</translation>
+        </message>
+        <message>
             <source>the needle has no direction</source>
             <translation>l'aiguille n'a pas de direction</translation>
+        </message>
+        <message>
+            <source>no generator's table is called {name!r}; there are {names}, or give the path of a .yaml file</source>
+            <translation>aucune table de générateur ne s’appelle {name!r} ; il y a {names}, ou donnez le chemin d’un fichier .yaml</translation>
         </message>
         <message>
             <source>no local anaesthetic was given</source>
@@ -22687,6 +22833,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>neither pleura nor capsule was crossed</source>
             <translation>ni plèvre ni capsule n'ont été traversées</translation>
+        </message>
+        <message>
+            <source>nothing was ablated</source>
+            <translation>rien n’a été détruit</translation>
         </message>
         <message>
             <source>a step of the procedure at {time} s: a number is not finite</source>
@@ -22729,6 +22879,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>pistolet à biopsie retiré : l'embase est ouverte</translation>
         </message>
         <message>
+            <source>electrode left in place</source>
+            <translation>électrode laissée en place</translation>
+        </message>
+        <message>
+            <source>the generator has ablated</source>
+            <translation>le générateur a détruit</translation>
+        </message>
+        <message>
             <source>needle for local anaesthetic</source>
             <translation>aiguille d'anesthésie locale</translation>
         </message>
@@ -22747,6 +22905,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>outer needle with the biopsy gun, fired</source>
             <translation>aiguille externe avec le pistolet déclenché</translation>
+        </message>
+        <message>
+            <source>electrode</source>
+            <translation>électrode</translation>
+        </message>
+        <message>
+            <source>this exercise ablates nothing</source>
+            <translation>cet exercice ne détruit rien</translation>
         </message>
         <message>
             <source>this exercise takes no samples</source>
@@ -22779,6 +22945,30 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>nothing tells which tissue lies where: use tissue: field in the exercise</source>
             <translation>rien ne dit quel tissu se trouve où : utilisez tissue: field dans l'exercice</translation>
+        </message>
+        <message>
+            <source>the lesion was ablated already: the attempt can be ended</source>
+            <translation>la lésion est déjà détruite : l’essai peut être terminé</translation>
+        </message>
+        <message>
+            <source>all {count} electrodes are in place</source>
+            <translation>les {count} électrodes sont en place</translation>
+        </message>
+        <message>
+            <source>{count} of {of} electrodes are in place: place the others first</source>
+            <translation>{count} électrodes sur {of} sont en place : placez d’abord les autres</translation>
+        </message>
+        <message>
+            <source>electrode {electrode} is {apart:.1f} mm from here: two at one place ablate one zone; draw back and go at least {least:g} mm beside it</source>
+            <translation>l’électrode {electrode} est à {apart:.1f} mm d’ici : deux à une place détruisent une zone ; reculez et placez-la à {least:g} mm au moins</translation>
+        </message>
+        <message>
+            <source>row {row} of the generator's table: there are 0 to {most}</source>
+            <translation>ligne {row} de la table du générateur : il y a 0 à {most}</translation>
+        </message>
+        <message>
+            <source>electrode {electrode} of {of} left in place</source>
+            <translation>électrode {electrode} sur {of} laissée en place</translation>
         </message>
         <message>
             <source>setting {setting} of the gun: there are 0 to {most}</source>
@@ -22829,12 +23019,60 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>L'encoche contient {notch} mm et finit {tip} mm avant l'aiguille</translation>
         </message>
         <message>
+            <source>Power and time of the generator</source>
+            <translation>Puissance et durée du générateur</translation>
+        </message>
+        <message>
+            <source>{power} W, {minutes} min: {long} × {short} mm</source>
+            <translation>{power} W, {minutes} min : {long} × {short} mm</translation>
+        </message>
+        <message>
             <source>Held: {tool}</source>
             <translation>En main : {tool}</translation>
         </message>
         <message>
+            <source>Ablated</source>
+            <translation>Détruit</translation>
+        </message>
+        <message>
+            <source>All {n} electrodes are in place</source>
+            <translation>Les {n} électrodes sont en place</translation>
+        </message>
+        <message>
+            <source>Electrode {n} of {of}</source>
+            <translation>Électrode {n} sur {of}</translation>
+        </message>
+        <message>
+            <source>Take the electrode (J)</source>
+            <translation>Prendre l’électrode (J)</translation>
+        </message>
+        <message>
+            <source>Leave electrode {n} here (J)</source>
+            <translation>Laisser l’électrode {n} ici (J)</translation>
+        </message>
+        <message>
+            <source>Start the generator (J)</source>
+            <translation>Démarrer le générateur (J)</translation>
+        </message>
+        <message>
             <source>Next step (J)</source>
             <translation>Étape suivante (J)</translation>
+        </message>
+        <message>
+            <source>Electrode {n}: {mm:.1f} mm from its place</source>
+            <translation>Électrode {n} : à {mm:.1f} mm de sa place</translation>
+        </message>
+        <message>
+            <source>▲ {vessel} {mm:.1f} mm from the zone: it may be cooled there, which is not reckoned</source>
+            <translation>▲ {vessel} à {mm:.1f} mm de la zone : elle peut y être refroidie, ce qui n’est pas compté</translation>
+        </message>
+        <message>
+            <source>✖ the zone reaches {tissue}: {ml:.1f} ml of it</source>
+            <translation>✖ la zone atteint {tissue} : {ml:.1f} ml</translation>
+        </message>
+        <message>
+            <source>{mark} {title}: least margin {mm:.1f} mm of {wanted:g}, lesion {share:.1f} %</source>
+            <translation>{mark} {title} : marge minimale {mm:.1f} mm de {wanted:g}, lésion {share:.1f} %</translation>
         </message>
         <message>
             <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
@@ -22907,6 +23145,38 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
             <translation>✖ Prélèvement {n} : {mm:.1f} mm de lésion, il en faut {least:g} mm</translation>
+        </message>
+        <message>
+            <source>electrodes {one} and {other} are at one place, {apart:.1f} mm apart: lay them at least {least:g} mm apart, or leave one out</source>
+            <translation>les électrodes {one} et {other} sont à une place, à {apart:.1f} mm : écartez-les de {least:g} mm au moins, ou omettez l’une</translation>
+        </message>
+        <message>
+            <source>ablation: {error}</source>
+            <translation>ablation : {error}</translation>
+        </message>
+        <message>
+            <source>ablation: electrode {electrode}: {error}</source>
+            <translation>ablation : électrode {electrode} : {error}</translation>
+        </message>
+        <message>
+            <source>ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}</source>
+            <translation>ablation : l’électrode {electrode} ne peut être placée avec {profile_name} : {reasons}</translation>
+        </message>
+        <message>
+            <source>an ablated zone of {long:g} × {short:g} mm: both must be above 0</source>
+            <translation>une zone détruite de {long:g} × {short:g} mm : les deux doivent dépasser 0</translation>
+        </message>
+        <message>
+            <source>an ablation of the record is none: {numbers}</source>
+            <translation>une ablation de l’enregistrement n’en est pas une : {numbers}</translation>
+        </message>
+        <message>
+            <source>least {mm:.1f} mm</source>
+            <translation>minimum {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
+            <translation>Tirets : zone prévue ; trait plein : zone détruite. Au bord de la lésion : ○ marge voulue, △ moindre, ✕ non couverte</translation>
         </message>
     </context>
 </TS>
