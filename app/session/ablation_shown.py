@@ -16,8 +16,8 @@ from app.session.ablation import ABLATE, PLACE, AblationState, shaft
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Margins:
-    """Margins at places of a lesion's surface, and what they come to.
+class MarginsShown:
+    """MarginsShown at places of a lesion's surface, and what they come to.
 
     Attributes:
         at_mm: places, LPS, shape (n, 3).
@@ -58,8 +58,8 @@ class AblationShown:
         setting: power [W] and time [min]; None before the generator.
     """
 
-    planned: Margins
-    reached: Margins | None
+    planned: MarginsShown
+    reached: MarginsShown | None
     shafts_mm: FloatArray
     off_mm: tuple[float, ...]
     wanted_mm: float
@@ -68,7 +68,7 @@ class AblationShown:
     setting: tuple[float, float] | None
 
     @property
-    def newest(self) -> Margins:
+    def newest(self) -> MarginsShown:
         """Return what was reached, or what is planned before."""
         return self.planned if self.reached is None else self.reached
 
@@ -77,8 +77,8 @@ class AblationShown:
         """Return what is shown of a running attempt."""
         row = None if state.row is None else state.table.rows[state.row]
 
-        def margins(done: Any) -> Margins:
-            return Margins(
+        def margins(done: Any) -> MarginsShown:
+            return MarginsShown(
                 done.surface_mm,
                 done.margin_mm,
                 done.least_mm,
@@ -125,12 +125,12 @@ class AblationShown:
 def _of_document(data: dict[str, Any], shafts: list[FloatArray], off: list[float]) -> AblationShown:
     places = np.array(data["map"]["at_lps_mm"], np.float64).reshape(-1, 3)
 
-    def margins(name: str) -> Margins:
+    def margins(name: str) -> MarginsShown:
         one = data[name]
         values = np.array(data["map"][f"{name}_mm"], np.float64)
         if len(values) != len(places) or not len(values) or not np.isfinite(values).all():
             raise ValueError(name)
-        return Margins(
+        return MarginsShown(
             read_only(places),
             read_only(values),
             float(one["least_margin_mm"]),

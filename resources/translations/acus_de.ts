@@ -2869,7 +2869,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>procedure: electrodes lie about a path that the file names: give plan entry_mm and target_mm</source>
-            <translation type="unfinished" />
+            <translation>procedure: Elektroden liegen um einen Pfad, den die Datei nennt: plan mit entry_mm und target_mm angeben</translation>
         </message>
         <message>
             <source>procedure: a tool that touches targets takes no steps</source>
@@ -13018,7 +13018,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>The lesion's surface unrolled: margin in mm; hatched where less than wanted</source>
-            <translation type="unfinished" />
+            <translation>Die Oberfläche der Läsion abgerollt: Sicherheitsabstand in mm; schraffiert, wo er kleiner ist als verlangt</translation>
+        </message>
+        <message>
+            <source>&lt;0</source>
+            <translation>&lt;0</translation>
         </message>
         <message>
             <source>front</source>
@@ -13030,55 +13034,55 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>Ablation: planned against reached</source>
-            <translation type="unfinished" />
+            <translation>Ablation: geplant gegen erreicht</translation>
         </message>
         <message>
             <source>Margin planned [mm]</source>
-            <translation type="unfinished" />
+            <translation>Sicherheitsabstand geplant [mm]</translation>
         </message>
         <message>
             <source>Margin reached [mm]</source>
-            <translation type="unfinished" />
+            <translation>Sicherheitsabstand erreicht [mm]</translation>
         </message>
         <message>
             <source>Ablation</source>
-            <translation type="unfinished" />
+            <translation>Ablation</translation>
         </message>
         <message>
             <source>Planned</source>
-            <translation type="unfinished" />
+            <translation>Geplant</translation>
         </message>
         <message>
             <source>Reached</source>
-            <translation type="unfinished" />
+            <translation>Erreicht</translation>
         </message>
         <message>
             <source>▲ Zones ex vivo: without blood, larger than in a patient</source>
-            <translation type="unfinished" />
+            <translation>▲ Zonen ex vivo: ohne Blut, größer als im Patienten</translation>
         </message>
         <message>
             <source>Least margin (wanted {mm:g} mm)</source>
-            <translation type="unfinished" />
+            <translation>Kleinster Abstand (verlangt {mm:g} mm)</translation>
         </message>
         <message>
             <source>Lesion ablated</source>
-            <translation type="unfinished" />
+            <translation>Läsion abladiert</translation>
         </message>
         <message>
             <source>{share:.1f} %</source>
-            <translation type="unfinished" />
+            <translation>{share:.1f} %</translation>
         </message>
         <message>
             <source>Electrode {n}, off its place</source>
-            <translation type="unfinished" />
+            <translation>Elektrode {n}, neben ihrem Platz</translation>
         </message>
         <message>
             <source>{power:g} W, {minutes:g} min</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W, {minutes:g} min</translation>
         </message>
         <message>
             <source>Generator</source>
-            <translation type="unfinished" />
+            <translation>Generator</translation>
         </message>
         <message>
             <source>head</source>
@@ -14442,7 +14446,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Draw the needle out of the skin, turn it to {n}</source>
-            <translation type="unfinished" />
+            <translation>Nadel aus der Haut ziehen, zu {n} drehen</translation>
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
@@ -19105,7 +19109,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
-            <translation type="unfinished" />
+            <translation>Abladieren Sie die Läsion in der Leber mit 5 mm Leber darum. Bringen Sie die Nadel an den ersten Platz und lassen Sie die Elektrode dort (J), ziehen Sie die Nadel aus der Haut zurück, drehen Sie sie zum nächsten Pfad, und so weiter für alle drei. Dann den Generator starten (J). Die Zonen folgen daraus, wo die Elektroden wirklich liegen: geplant sind 40 W für 20 min.</translation>
         </message>
         <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
@@ -19277,7 +19281,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Electrode spacing error</source>
-            <translation type="unfinished" />
+            <translation>Fehler des Elektrodenabstands</translation>
         </message>
         <message>
             <source>Emphysema on the planned path</source>
@@ -19393,7 +19397,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Least margin</source>
-            <translation type="unfinished" />
+            <translation>Kleinster Sicherheitsabstand</translation>
         </message>
         <message>
             <source>Least squares of the band's whole picture</source>
@@ -19413,7 +19417,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Liver ablation with three needles</source>
-            <translation type="unfinished" />
+            <translation>Leberablation mit drei Nadeln</translation>
         </message>
         <message>
             <source>Lung biopsy in six units</source>
@@ -19549,7 +19553,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Reached beside the organ</source>
-            <translation type="unfinished" />
+            <translation>Neben dem Organ erreicht</translation>
         </message>
         <message>
             <source>Read the planning CT, align the needle by the plan and take control scans where you would in the scanner room: choose table position and 3 to 5 slices, press the pedal (S). A tip outside the slices is not seen. There is no other view of the needle and no guidance by the robot. Use few scans. The patient holds the breath.</source>
@@ -19765,7 +19769,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Vessels within 3 mm</source>
-            <translation type="unfinished" />
+            <translation>Gefäße innerhalb 3 mm</translation>
         </message>
         <message>
             <source>Views of a board that calibrate a camera</source>
@@ -20499,27 +20503,28 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>
   ablates with {electrodes} electrodes, one after another through one entry, {power:g} W for {minutes:g} min</source>
-            <translation type="unfinished" />
+            <translation>
+  abladiert mit {electrodes} Elektroden, eine nach der anderen durch einen Eintritt, {power:g} W für {minutes:g} min</translation>
         </message>
         <message>
             <source>generator</source>
-            <translation type="unfinished" />
+            <translation>Generator</translation>
         </message>
         <message>
             <source>source</source>
-            <translation type="unfinished" />
+            <translation>Quelle</translation>
         </message>
         <message>
             <source>{margin:.1f} mm planned of {wanted:g} wanted, {share:.1f} % of the lesion</source>
-            <translation type="unfinished" />
+            <translation>{margin:.1f} mm geplant von {wanted:g} verlangten, {share:.1f} % der Läsion</translation>
         </message>
         <message>
             <source>margin</source>
-            <translation type="unfinished" />
+            <translation>Abstand</translation>
         </message>
         <message>
             <source>{vessel} lies within 3 mm of the zone: what it cools is not reckoned</source>
-            <translation type="unfinished" />
+            <translation>{vessel} liegt innerhalb 3 mm der Zone: was das kühlt, ist nicht gerechnet</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -23263,7 +23268,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
-            <translation type="unfinished" />
+            <translation>procedure: Proben und Ablation sind zwei Übungen: eines weglassen</translation>
         </message>
         <message>
             <source>procedure names no step; there are {names}</source>
@@ -23291,23 +23296,23 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min stands in the table twice: leave one out</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W für {minutes:g} min steht zweimal in der Tabelle: eines weglassen</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min: a zone {long_mm:g} mm long cannot reach {ahead:g} mm ahead of the tip</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W für {minutes:g} min: eine Zone von {long_mm:g} mm Länge kann nicht {ahead:g} mm vor die Spitze reichen</translation>
         </message>
         <message>
             <source>{title}: ex vivo, {tissue}</source>
-            <translation type="unfinished" />
+            <translation>{title}: ex vivo, {tissue}</translation>
         </message>
         <message>
             <source>{title}: in vivo, {tissue}</source>
-            <translation type="unfinished" />
+            <translation>{title}: in vivo, {tissue}</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min is not in the generator's table; there are {all}</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W für {minutes:g} min steht nicht in der Tabelle des Generators; es gibt {all}</translation>
         </message>
         <message>
             <source>the needle has no direction</source>
@@ -23315,7 +23320,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>no generator's table is called {name!r}; there are {names}, or give the path of a .yaml file</source>
-            <translation type="unfinished" />
+            <translation>keine Generatortabelle heißt {name!r}; es gibt {names}, oder den Pfad einer .yaml-Datei angeben</translation>
         </message>
         <message>
             <source>no local anaesthetic was given</source>
@@ -23335,7 +23340,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>nothing was ablated</source>
-            <translation type="unfinished" />
+            <translation>nichts wurde abladiert</translation>
         </message>
         <message>
             <source>a step of the procedure at {time} s: a number is not finite</source>
@@ -23379,11 +23384,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>electrode left in place</source>
-            <translation type="unfinished" />
+            <translation>Elektrode liegen gelassen</translation>
         </message>
         <message>
             <source>the generator has ablated</source>
-            <translation type="unfinished" />
+            <translation>der Generator hat abladiert</translation>
         </message>
         <message>
             <source>needle for local anaesthetic</source>
@@ -23407,11 +23412,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>electrode</source>
-            <translation type="unfinished" />
+            <translation>Elektrode</translation>
         </message>
         <message>
             <source>this exercise ablates nothing</source>
-            <translation type="unfinished" />
+            <translation>diese Übung abladiert nichts</translation>
         </message>
         <message>
             <source>this exercise takes no samples</source>
@@ -23447,27 +23452,27 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>the lesion was ablated already: the attempt can be ended</source>
-            <translation type="unfinished" />
+            <translation>die Läsion ist schon abladiert: der Versuch kann beendet werden</translation>
         </message>
         <message>
             <source>all {count} electrodes are in place</source>
-            <translation type="unfinished" />
+            <translation>alle {count} Elektroden liegen</translation>
         </message>
         <message>
             <source>{count} of {of} electrodes are in place: place the others first</source>
-            <translation type="unfinished" />
+            <translation>{count} von {of} Elektroden liegen: zuerst die anderen setzen</translation>
         </message>
         <message>
             <source>electrode {electrode} is {apart:.1f} mm from here: two at one place ablate one zone; draw back and go at least {least:g} mm beside it</source>
-            <translation type="unfinished" />
+            <translation>Elektrode {electrode} ist {apart:.1f} mm von hier: zwei an einem Platz abladieren eine Zone; zurückziehen und mindestens {least:g} mm daneben setzen</translation>
         </message>
         <message>
             <source>row {row} of the generator's table: there are 0 to {most}</source>
-            <translation type="unfinished" />
+            <translation>Zeile {row} der Generatortabelle: es gibt 0 bis {most}</translation>
         </message>
         <message>
             <source>electrode {electrode} of {of} left in place</source>
-            <translation type="unfinished" />
+            <translation>Elektrode {electrode} von {of} liegen gelassen</translation>
         </message>
         <message>
             <source>setting {setting} of the gun: there are 0 to {most}</source>
@@ -23519,11 +23524,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Power and time of the generator</source>
-            <translation type="unfinished" />
+            <translation>Leistung und Zeit des Generators</translation>
         </message>
         <message>
             <source>{power} W, {minutes} min: {long} × {short} mm</source>
-            <translation type="unfinished" />
+            <translation>{power} W, {minutes} min: {long} × {short} mm</translation>
         </message>
         <message>
             <source>Held: {tool}</source>
@@ -23531,27 +23536,27 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Ablated</source>
-            <translation type="unfinished" />
+            <translation>Abladiert</translation>
         </message>
         <message>
             <source>All {n} electrodes are in place</source>
-            <translation type="unfinished" />
+            <translation>Alle {n} Elektroden liegen</translation>
         </message>
         <message>
             <source>Electrode {n} of {of}</source>
-            <translation type="unfinished" />
+            <translation>Elektrode {n} von {of}</translation>
         </message>
         <message>
             <source>Take the electrode (J)</source>
-            <translation type="unfinished" />
+            <translation>Elektrode nehmen (J)</translation>
         </message>
         <message>
             <source>Leave electrode {n} here (J)</source>
-            <translation type="unfinished" />
+            <translation>Elektrode {n} hier lassen (J)</translation>
         </message>
         <message>
             <source>Start the generator (J)</source>
-            <translation type="unfinished" />
+            <translation>Generator starten (J)</translation>
         </message>
         <message>
             <source>Next step (J)</source>
@@ -23559,19 +23564,19 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Electrode {n}: {mm:.1f} mm from its place</source>
-            <translation type="unfinished" />
+            <translation>Elektrode {n}: {mm:.1f} mm neben ihrem Platz</translation>
         </message>
         <message>
             <source>▲ {vessel} {mm:.1f} mm from the zone: it may be cooled there, which is not reckoned</source>
-            <translation type="unfinished" />
+            <translation>▲ {vessel} {mm:.1f} mm von der Zone: dort kann gekühlt werden, was nicht gerechnet ist</translation>
         </message>
         <message>
             <source>✖ the zone reaches {tissue}: {ml:.1f} ml of it</source>
-            <translation type="unfinished" />
+            <translation>✖ die Zone erreicht {tissue}: {ml:.1f} ml davon</translation>
         </message>
         <message>
             <source>{mark} {title}: least margin {mm:.1f} mm of {wanted:g}, lesion {share:.1f} %</source>
-            <translation type="unfinished" />
+            <translation>{mark} {title}: kleinster Abstand {mm:.1f} mm von {wanted:g}, Läsion {share:.1f} %</translation>
         </message>
         <message>
             <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
@@ -23827,35 +23832,35 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>electrodes {one} and {other} are at one place, {apart:.1f} mm apart: lay them at least {least:g} mm apart, or leave one out</source>
-            <translation type="unfinished" />
+            <translation>Elektroden {one} und {other} sind an einem Platz, {apart:.1f} mm auseinander: mindestens {least:g} mm auseinander legen, oder eine weglassen</translation>
         </message>
         <message>
             <source>ablation: {error}</source>
-            <translation type="unfinished" />
+            <translation>Ablation: {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode}: {error}</source>
-            <translation type="unfinished" />
+            <translation>Ablation: Elektrode {electrode}: {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}</source>
-            <translation type="unfinished" />
+            <translation>Ablation: Elektrode {electrode} kann mit {profile_name} nicht gesetzt werden: {reasons}</translation>
         </message>
         <message>
             <source>an ablated zone of {long:g} × {short:g} mm: both must be above 0</source>
-            <translation type="unfinished" />
+            <translation>eine Ablationszone von {long:g} × {short:g} mm: beides muss über 0 sein</translation>
         </message>
         <message>
             <source>an ablation of the record is none: {numbers}</source>
-            <translation type="unfinished" />
+            <translation>eine Ablation der Aufzeichnung ist keine: {numbers}</translation>
         </message>
         <message>
             <source>least {mm:.1f} mm</source>
-            <translation type="unfinished" />
+            <translation>kleinster {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
-            <translation type="unfinished" />
+            <translation>Gestrichelt: geplante Zone; durchgezogen: abladierte Zone. Am Rand der Läsion: ○ Abstand wie verlangt, △ kleiner, ✕ nicht bedeckt</translation>
         </message>
         <message>
             <source>grid line {line}: there are 1 to {lines}</source>

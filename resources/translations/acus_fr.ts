@@ -2869,7 +2869,7 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>procedure: electrodes lie about a path that the file names: give plan entry_mm and target_mm</source>
-            <translation type="unfinished" />
+            <translation>procedure : les électrodes sont autour d’un trajet que le fichier nomme : donnez plan avec entry_mm et target_mm</translation>
         </message>
         <message>
             <source>procedure: a tool that touches targets takes no steps</source>
@@ -13018,7 +13018,11 @@ Lettres : directions du patient
         </message>
         <message>
             <source>The lesion's surface unrolled: margin in mm; hatched where less than wanted</source>
-            <translation type="unfinished" />
+            <translation>La surface de la lésion déroulée : marge en mm ; hachurée où elle est moindre que voulue</translation>
+        </message>
+        <message>
+            <source>&lt;0</source>
+            <translation>&lt;0</translation>
         </message>
         <message>
             <source>front</source>
@@ -13030,55 +13034,55 @@ Lettres : directions du patient
         </message>
         <message>
             <source>Ablation: planned against reached</source>
-            <translation type="unfinished" />
+            <translation>Ablation : prévu et atteint</translation>
         </message>
         <message>
             <source>Margin planned [mm]</source>
-            <translation type="unfinished" />
+            <translation>Marge prévue [mm]</translation>
         </message>
         <message>
             <source>Margin reached [mm]</source>
-            <translation type="unfinished" />
+            <translation>Marge atteinte [mm]</translation>
         </message>
         <message>
             <source>Ablation</source>
-            <translation type="unfinished" />
+            <translation>Ablation</translation>
         </message>
         <message>
             <source>Planned</source>
-            <translation type="unfinished" />
+            <translation>Prévu</translation>
         </message>
         <message>
             <source>Reached</source>
-            <translation type="unfinished" />
+            <translation>Atteint</translation>
         </message>
         <message>
             <source>▲ Zones ex vivo: without blood, larger than in a patient</source>
-            <translation type="unfinished" />
+            <translation>▲ Zones ex vivo : sans sang, plus grandes que chez un patient</translation>
         </message>
         <message>
             <source>Least margin (wanted {mm:g} mm)</source>
-            <translation type="unfinished" />
+            <translation>Marge minimale (voulue {mm:g} mm)</translation>
         </message>
         <message>
             <source>Lesion ablated</source>
-            <translation type="unfinished" />
+            <translation>Lésion détruite</translation>
         </message>
         <message>
             <source>{share:.1f} %</source>
-            <translation type="unfinished" />
+            <translation>{share:.1f} %</translation>
         </message>
         <message>
             <source>Electrode {n}, off its place</source>
-            <translation type="unfinished" />
+            <translation>Électrode {n}, écart de sa place</translation>
         </message>
         <message>
             <source>{power:g} W, {minutes:g} min</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W, {minutes:g} min</translation>
         </message>
         <message>
             <source>Generator</source>
-            <translation type="unfinished" />
+            <translation>Générateur</translation>
         </message>
         <message>
             <source>head</source>
@@ -14442,7 +14446,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Draw the needle out of the skin, turn it to {n}</source>
-            <translation type="unfinished" />
+            <translation>Retirez l’aiguille de la peau, tournez-la vers {n}</translation>
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
@@ -19105,7 +19109,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
-            <translation type="unfinished" />
+            <translation>Détruisez la lésion du foie avec 5 mm de foie autour. Amenez l’aiguille à la première place et laissez-y l’électrode (J), retirez l’aiguille de la peau, tournez-la vers le trajet suivant, et ainsi pour les trois. Puis démarrez le générateur (J). Les zones suivent de la vraie place des électrodes : prévus sont 40 W pendant 20 min.</translation>
         </message>
         <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
@@ -19277,7 +19281,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Electrode spacing error</source>
-            <translation type="unfinished" />
+            <translation>Erreur d’écart des électrodes</translation>
         </message>
         <message>
             <source>Emphysema on the planned path</source>
@@ -19393,7 +19397,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Least margin</source>
-            <translation type="unfinished" />
+            <translation>Marge minimale</translation>
         </message>
         <message>
             <source>Least squares of the band's whole picture</source>
@@ -19413,7 +19417,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Liver ablation with three needles</source>
-            <translation type="unfinished" />
+            <translation>Ablation du foie à trois aiguilles</translation>
         </message>
         <message>
             <source>Lung biopsy in six units</source>
@@ -19549,7 +19553,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Reached beside the organ</source>
-            <translation type="unfinished" />
+            <translation>Atteint hors de l’organe</translation>
         </message>
         <message>
             <source>Read the planning CT, align the needle by the plan and take control scans where you would in the scanner room: choose table position and 3 to 5 slices, press the pedal (S). A tip outside the slices is not seen. There is no other view of the needle and no guidance by the robot. Use few scans. The patient holds the breath.</source>
@@ -19765,7 +19769,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Vessels within 3 mm</source>
-            <translation type="unfinished" />
+            <translation>Vaisseaux à moins de 3 mm</translation>
         </message>
         <message>
             <source>Views of a board that calibrate a camera</source>
@@ -20499,27 +20503,28 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>
   ablates with {electrodes} electrodes, one after another through one entry, {power:g} W for {minutes:g} min</source>
-            <translation type="unfinished" />
+            <translation>
+  détruit avec {electrodes} électrodes, l’une après l’autre par une entrée, {power:g} W pendant {minutes:g} min</translation>
         </message>
         <message>
             <source>generator</source>
-            <translation type="unfinished" />
+            <translation>générateur</translation>
         </message>
         <message>
             <source>source</source>
-            <translation type="unfinished" />
+            <translation>source</translation>
         </message>
         <message>
             <source>{margin:.1f} mm planned of {wanted:g} wanted, {share:.1f} % of the lesion</source>
-            <translation type="unfinished" />
+            <translation>{margin:.1f} mm prévus de {wanted:g} voulus, {share:.1f} % de la lésion</translation>
         </message>
         <message>
             <source>margin</source>
-            <translation type="unfinished" />
+            <translation>marge</translation>
         </message>
         <message>
             <source>{vessel} lies within 3 mm of the zone: what it cools is not reckoned</source>
-            <translation type="unfinished" />
+            <translation>{vessel} est à moins de 3 mm de la zone : son refroidissement n’est pas compté</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -23263,7 +23268,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
-            <translation type="unfinished" />
+            <translation>procedure : prélèvements et ablation sont deux exercices : omettez l’un</translation>
         </message>
         <message>
             <source>procedure names no step; there are {names}</source>
@@ -23291,23 +23296,23 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min stands in the table twice: leave one out</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W pendant {minutes:g} min est deux fois dans la table : omettez l’un</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min: a zone {long_mm:g} mm long cannot reach {ahead:g} mm ahead of the tip</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W pendant {minutes:g} min : une zone longue de {long_mm:g} mm ne peut dépasser la pointe de {ahead:g} mm</translation>
         </message>
         <message>
             <source>{title}: ex vivo, {tissue}</source>
-            <translation type="unfinished" />
+            <translation>{title} : ex vivo, {tissue}</translation>
         </message>
         <message>
             <source>{title}: in vivo, {tissue}</source>
-            <translation type="unfinished" />
+            <translation>{title} : in vivo, {tissue}</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min is not in the generator's table; there are {all}</source>
-            <translation type="unfinished" />
+            <translation>{power:g} W pendant {minutes:g} min n’est pas dans la table du générateur ; il y a {all}</translation>
         </message>
         <message>
             <source>the needle has no direction</source>
@@ -23315,7 +23320,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>no generator's table is called {name!r}; there are {names}, or give the path of a .yaml file</source>
-            <translation type="unfinished" />
+            <translation>aucune table de générateur ne s’appelle {name!r} ; il y a {names}, ou donnez le chemin d’un fichier .yaml</translation>
         </message>
         <message>
             <source>no local anaesthetic was given</source>
@@ -23335,7 +23340,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>nothing was ablated</source>
-            <translation type="unfinished" />
+            <translation>rien n’a été détruit</translation>
         </message>
         <message>
             <source>a step of the procedure at {time} s: a number is not finite</source>
@@ -23379,11 +23384,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>electrode left in place</source>
-            <translation type="unfinished" />
+            <translation>électrode laissée en place</translation>
         </message>
         <message>
             <source>the generator has ablated</source>
-            <translation type="unfinished" />
+            <translation>le générateur a détruit</translation>
         </message>
         <message>
             <source>needle for local anaesthetic</source>
@@ -23407,11 +23412,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>electrode</source>
-            <translation type="unfinished" />
+            <translation>électrode</translation>
         </message>
         <message>
             <source>this exercise ablates nothing</source>
-            <translation type="unfinished" />
+            <translation>cet exercice ne détruit rien</translation>
         </message>
         <message>
             <source>this exercise takes no samples</source>
@@ -23447,27 +23452,27 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>the lesion was ablated already: the attempt can be ended</source>
-            <translation type="unfinished" />
+            <translation>la lésion est déjà détruite : l’essai peut être terminé</translation>
         </message>
         <message>
             <source>all {count} electrodes are in place</source>
-            <translation type="unfinished" />
+            <translation>les {count} électrodes sont en place</translation>
         </message>
         <message>
             <source>{count} of {of} electrodes are in place: place the others first</source>
-            <translation type="unfinished" />
+            <translation>{count} électrodes sur {of} sont en place : placez d’abord les autres</translation>
         </message>
         <message>
             <source>electrode {electrode} is {apart:.1f} mm from here: two at one place ablate one zone; draw back and go at least {least:g} mm beside it</source>
-            <translation type="unfinished" />
+            <translation>l’électrode {electrode} est à {apart:.1f} mm d’ici : deux à une place détruisent une zone ; reculez et placez-la à {least:g} mm au moins</translation>
         </message>
         <message>
             <source>row {row} of the generator's table: there are 0 to {most}</source>
-            <translation type="unfinished" />
+            <translation>ligne {row} de la table du générateur : il y a 0 à {most}</translation>
         </message>
         <message>
             <source>electrode {electrode} of {of} left in place</source>
-            <translation type="unfinished" />
+            <translation>électrode {electrode} sur {of} laissée en place</translation>
         </message>
         <message>
             <source>setting {setting} of the gun: there are 0 to {most}</source>
@@ -23519,11 +23524,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Power and time of the generator</source>
-            <translation type="unfinished" />
+            <translation>Puissance et durée du générateur</translation>
         </message>
         <message>
             <source>{power} W, {minutes} min: {long} × {short} mm</source>
-            <translation type="unfinished" />
+            <translation>{power} W, {minutes} min : {long} × {short} mm</translation>
         </message>
         <message>
             <source>Held: {tool}</source>
@@ -23531,27 +23536,27 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Ablated</source>
-            <translation type="unfinished" />
+            <translation>Détruit</translation>
         </message>
         <message>
             <source>All {n} electrodes are in place</source>
-            <translation type="unfinished" />
+            <translation>Les {n} électrodes sont en place</translation>
         </message>
         <message>
             <source>Electrode {n} of {of}</source>
-            <translation type="unfinished" />
+            <translation>Électrode {n} sur {of}</translation>
         </message>
         <message>
             <source>Take the electrode (J)</source>
-            <translation type="unfinished" />
+            <translation>Prendre l’électrode (J)</translation>
         </message>
         <message>
             <source>Leave electrode {n} here (J)</source>
-            <translation type="unfinished" />
+            <translation>Laisser l’électrode {n} ici (J)</translation>
         </message>
         <message>
             <source>Start the generator (J)</source>
-            <translation type="unfinished" />
+            <translation>Démarrer le générateur (J)</translation>
         </message>
         <message>
             <source>Next step (J)</source>
@@ -23559,19 +23564,19 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Electrode {n}: {mm:.1f} mm from its place</source>
-            <translation type="unfinished" />
+            <translation>Électrode {n} : à {mm:.1f} mm de sa place</translation>
         </message>
         <message>
             <source>▲ {vessel} {mm:.1f} mm from the zone: it may be cooled there, which is not reckoned</source>
-            <translation type="unfinished" />
+            <translation>▲ {vessel} à {mm:.1f} mm de la zone : elle peut y être refroidie, ce qui n’est pas compté</translation>
         </message>
         <message>
             <source>✖ the zone reaches {tissue}: {ml:.1f} ml of it</source>
-            <translation type="unfinished" />
+            <translation>✖ la zone atteint {tissue} : {ml:.1f} ml</translation>
         </message>
         <message>
             <source>{mark} {title}: least margin {mm:.1f} mm of {wanted:g}, lesion {share:.1f} %</source>
-            <translation type="unfinished" />
+            <translation>{mark} {title} : marge minimale {mm:.1f} mm de {wanted:g}, lésion {share:.1f} %</translation>
         </message>
         <message>
             <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
@@ -23827,35 +23832,35 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>electrodes {one} and {other} are at one place, {apart:.1f} mm apart: lay them at least {least:g} mm apart, or leave one out</source>
-            <translation type="unfinished" />
+            <translation>les électrodes {one} et {other} sont à une place, à {apart:.1f} mm : écartez-les de {least:g} mm au moins, ou omettez l’une</translation>
         </message>
         <message>
             <source>ablation: {error}</source>
-            <translation type="unfinished" />
+            <translation>ablation : {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode}: {error}</source>
-            <translation type="unfinished" />
+            <translation>ablation : électrode {electrode} : {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}</source>
-            <translation type="unfinished" />
+            <translation>ablation : l’électrode {electrode} ne peut être placée avec {profile_name} : {reasons}</translation>
         </message>
         <message>
             <source>an ablated zone of {long:g} × {short:g} mm: both must be above 0</source>
-            <translation type="unfinished" />
+            <translation>une zone détruite de {long:g} × {short:g} mm : les deux doivent dépasser 0</translation>
         </message>
         <message>
             <source>an ablation of the record is none: {numbers}</source>
-            <translation type="unfinished" />
+            <translation>une ablation de l’enregistrement n’en est pas une : {numbers}</translation>
         </message>
         <message>
             <source>least {mm:.1f} mm</source>
-            <translation type="unfinished" />
+            <translation>minimum {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
-            <translation type="unfinished" />
+            <translation>Tirets : zone prévue ; trait plein : zone détruite. Au bord de la lésion : ○ marge voulue, △ moindre, ✕ non couverte</translation>
         </message>
         <message>
             <source>grid line {line}: there are 1 to {lines}</source>

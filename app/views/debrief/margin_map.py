@@ -12,10 +12,17 @@ from typing import Final
 import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QFontMetrics, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QSizePolicy, QTableWidget, QTableWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QHeaderView,
+    QSizePolicy,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app.core.arrays import FloatArray
-from app.session.ablation_shown import AblationShown, Margins
+from app.session.ablation_shown import AblationShown, MarginsShown
 from app.views.exercise.ablation_panel import warnings
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
@@ -27,6 +34,7 @@ AROUND: Final = 12
 UP: Final = 6
 """Fields of the map about the lesion and from feet to head."""
 
+_ROW_HEIGHT: Final = 26
 _HATCHED: Final = {
     ENOUGH.colour: None,
     LITTLE.colour: Qt.BrushStyle.BDiagPattern,
@@ -34,7 +42,7 @@ _HATCHED: Final = {
 }
 
 
-def fields(margins: Margins) -> FloatArray:
+def fields(margins: MarginsShown) -> FloatArray:
     """Return the least margin of each field [mm], shape (UP, AROUND), head first; NaN for none.
 
     Columns run from the patient's right over front and left to the back.
@@ -72,7 +80,7 @@ class MarginMap(QWidget):
         """Return the same height, and as little width as figures need."""
         return QSize(220, self.sizeHint().height())
 
-    def show_margins(self, title: str, margins: Margins | None, wanted_mm: float) -> None:
+    def show_margins(self, title: str, margins: MarginsShown | None, wanted_mm: float) -> None:
         """Draw other margins."""
         self.title, self._wanted = title, wanted_mm
         self._fields = None if margins is None else fields(margins)
@@ -104,9 +112,9 @@ class MarginMap(QWidget):
         painter.fillRect(box, QColor(mark.colour))
         pattern = _HATCHED[mark.colour]
         if pattern is not None:
-            painter.fillRect(box, QBrush(QColor("#00000070"[:7]), pattern))
+            painter.fillRect(box, QBrush(QColor("#000000"), pattern))
         painter.drawRect(box)
-        words = number(margin, ".0f")
+        words = tr("<0") if margin < 0.0 and round(margin) == 0 else number(margin, ".0f")
         room = QFontMetrics(painter.font()).boundingRect(words).adjusted(-2, -1, 2, 1)
         plate = QRectF(room)
         plate.moveCenter(box.center())
@@ -140,6 +148,9 @@ class AblationReview(QWidget):
         self.key.setWordWrap(True)
         self.key.setStyleSheet(f"color: {theme.TEXT_DIM}; font-size: {theme.SMALL_PX}px;")
         self.table.verticalHeader().hide()
+        self.table.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+        self.table.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
+        self.table.setWordWrap(False)
         self.table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
         self.table.setSelectionMode(QTableWidget.SelectionMode.NoSelection)
         self.table.setTabKeyNavigation(False)
@@ -167,10 +178,8 @@ class AblationReview(QWidget):
         for row, cells in enumerate(rows):
             for column, text in enumerate(cells):
                 self.table.setItem(row, column, QTableWidgetItem(text))
-        self.table.resizeRowsToContents()
-        height = self.table.horizontalHeader().sizeHint().height() + 4
-        height += sum(self.table.rowHeight(row) for row in range(len(rows)))
-        self.table.setFixedHeight(height)
+        height = self.table.horizontalHeader().sizeHint().height() + 8
+        self.table.setFixedHeight(height + _ROW_HEIGHT * len(rows))
         lines = warnings(shown.reached)
         if shown.ex_vivo:
             lines.append(tr("▲ Zones ex vivo: without blood, larger than in a patient"))

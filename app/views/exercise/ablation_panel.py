@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
 
 from app.imaging.field.tissue_words import tissue_words
 from app.session.ablation import AblationState
-from app.session.ablation_shown import AblationShown, Margins
+from app.session.ablation_shown import AblationShown, MarginsShown
 from app.session.procedure import ProcedureState, Step, Tool
 from app.views.kit import theme
 from app.views.kit.parts import FittingButton, PlainLabel
@@ -167,7 +167,7 @@ def results(shown: AblationShown) -> list[str]:
     return lines
 
 
-def warnings(margins: Margins) -> list[str]:
+def warnings(margins: MarginsShown) -> list[str]:
     """Say which vessels lie near a zone, and what else it reaches."""
     lines = [
         tr(
@@ -187,7 +187,7 @@ def warnings(margins: Margins) -> list[str]:
     ]
 
 
-def _margin_line(title: str, margins: Margins, wanted_mm: float) -> str:
+def _margin_line(title: str, margins: MarginsShown, wanted_mm: float) -> str:
     mark = "✔" if margins.least_mm >= wanted_mm else "▲" if margins.least_mm >= 0.0 else "✖"
     return tr(
         "{mark} {title}: least margin {mm:.1f} mm of {wanted:g}, lesion {share:.1f} %",

@@ -1,4 +1,5 @@
-"""The view `target_motion`: the target where breathing has it now, on slices and in 3D.
+"""The view `target_motion`: the target where breathing has it now, on slices and in 3D; and what is
+ablated there.
 
 Where the view is off, the snapshot that everybody gets has the target at rest (`exercise.shown`),
 and with it the bull's-eye, its rings and every distance.
@@ -12,10 +13,13 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.session.ablation import AblationState
+from app.session.ablation_shown import AblationShown
 from app.session.snapshot import Snapshot
 from app.session.touching import TargetMarks
 from app.views.exercise.run import ExerciseRun
 from app.views.reading.workspace import WorkspacePage
+from app.views.slices.zones import ZonesLayer
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "target_motion",
@@ -70,3 +74,29 @@ class TargetMotion:
         if again:
             self._drawn = target_mm
             self._workspace.scene.set_plan(viewing.shown_draft)
+
+
+class AblationView:
+    """Draws zones, margins and electrodes left in place over the panes of a workspace."""
+
+    def __init__(self, workspace: WorkspacePage) -> None:
+        self._workspace = workspace
+        self._layers: dict[object, ZonesLayer] = {}
+        self._drawn: AblationState | None = None
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Draw the state of a snapshot; nothing where the exercise ablates nothing."""
+        state = None if snapshot.procedure is None else snapshot.procedure.ablation
+        if state is not self._drawn:
+            self._drawn = state
+            shown = None if state is None else AblationShown.of_state(state)
+            for pane in self._workspace.slices:
+                if pane not in self._layers:
+                    self._layers[pane] = ZonesLayer(pane.canvas)
+                self._layers[pane].set_shown(shown)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self._drawn = None
+        for layer in self._layers.values():
+            layer.set_shown(None)

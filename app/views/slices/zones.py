@@ -14,7 +14,7 @@ from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPainterPath, QPen, QP
 
 from app.core.arrays import FloatArray
 from app.planning.ablation.zone import Zone
-from app.session.ablation_shown import AblationShown, Margins
+from app.session.ablation_shown import AblationShown, MarginsShown
 from app.views.kit.text import literal, tr
 from app.views.kit.theme import Mark, Symbol
 from app.views.slices.canvas import SliceCanvas
@@ -189,7 +189,7 @@ def _shaft(ends: FloatArray, plane: SlicePlane, index: float) -> tuple[FloatArra
 
 
 def _in_slice(
-    margins: Margins, plane: SlicePlane, index: float
+    margins: MarginsShown, plane: SlicePlane, index: float
 ) -> list[tuple[float, float, float]]:
     found = []
     for place, margin in zip(margins.at_mm, margins.margin_mm.tolist(), strict=True):
