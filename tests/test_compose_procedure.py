@@ -109,7 +109,7 @@ def test_a_script_stops_where_it_is_told_and_is_else_what_it_was() -> None:
 
 
 def test_every_step_has_its_words() -> None:
-    from app.session.procedure import STEP_WORDS, TOOL_WORDS, Tool
+    from app.session.procedure import STEP_WORDS, TOOL_WORDS, ToolInHand
 
     assert set(STEP_WORDS) == set(Step)
-    assert set(TOOL_WORDS) == set(Tool)
+    assert set(TOOL_WORDS) == set(ToolInHand)

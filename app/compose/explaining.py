@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from app.compose.declared_views import declared_views
-from app.compose.explaining_ablation import planned_ablation
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
+from app.exercises.ablation import check_electrodes, electrode_plans
 from app.exercises.parts import TissueSource
 from app.exercises.scene import (
     compile_exercise,
@@ -28,9 +28,16 @@ from app.scoring.complications.factors import FACTOR_NAMES
 from app.scoring.complications.risk import calibrated
 from app.scoring.odds import HUO, ZHU
 from app.scoring.pass_line import pass_lines
+from app.session.ablation import AblationState
 from app.session.complications import ComplicationCase, along_the_plan
 from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
+
+if TYPE_CHECKING:
+    from app.exercises.schema import Exercise
+    from app.mechanisms.profile import DeviceProfile
+    from app.simulation.bound_field import BoundField
+
 
 if TYPE_CHECKING:
     from app.compose.exercise_field import ExercisePatient
@@ -346,3 +353,38 @@ def _held_pose(profile: DeviceProfile) -> FloatArray:
     state[sv.P3_V] = state[sv.JACOBIAN].reshape(2, 2) @ (0.3, -0.2)
     state[sv.PATH_Z], state[sv.ASSISTANCE], state[sv.HUB_VX] = -1.0, 0.7, 0.02
     return state
+
+
+def planned_ablation(
+    exercise: Exercise, profile: DeviceProfile, bound: BoundField | None
+) -> dict[str, Any] | None:
+    """Return generator, electrodes and, where the patient is known, the planned margin.
+
+    None where the exercise ablates nothing.
+
+    Raises:
+        AcusError: if an electrode cannot be placed.
+    """
+    part = None if exercise.procedure is None else exercise.procedure.ablation
+    if part is None:
+        return None
+    placed, table = placed_plan_of(exercise, profile), part.table()
+    check_electrodes(part, placed, profile)
+    plans = electrode_plans(part, placed)
+    tissue = None if bound is None else bound.tissue
+    state = AblationState.of(exercise.procedure, placed, tissue)
+    planned = None if state is None else state.planned
+    return {
+        "generator": table.words,
+        "source": table.source,
+        "ex_vivo": table.ex_vivo,
+        "power_w": part.power_w,
+        "minutes": part.minutes,
+        "wanted_mm": part.margin_mm,
+        "electrodes_lps_mm": [plan.plan.target_mm.tolist() for plan in plans],
+        "depths_mm": [plan.length / MILLIMETRE for plan in plans],
+        "planned_margin_mm": None if planned is None else planned.least_mm,
+        "planned_share": None if planned is None else planned.share,
+        "vessels": [] if planned is None else [one.name for one in planned.vessels],
+        "reached": [] if planned is None else [one.name for one in planned.reached],
+    }

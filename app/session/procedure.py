@@ -49,7 +49,7 @@ MARKED: Final = "mark_entry"
 """Step of the event that says where the entry was marked, before the needle is touched."""
 
 
-class Tool(StrEnum):
+class ToolInHand(StrEnum):
     """What the shaft in the robot stands for."""
 
     ANAESTHETIC = "anaesthetic"
@@ -96,31 +96,31 @@ STEP_WORDS: Final = {
 }
 
 _FROM: Final = {
-    Step.INJECT: (Tool.ANAESTHETIC,),
-    Step.TAKE_NEEDLE: (Tool.ANAESTHETIC,),
-    Step.STYLET_OUT: (Tool.STYLET,),
-    Step.STYLET_IN: (Tool.OPEN,),
-    Step.GUN_IN: (Tool.OPEN,),
-    Step.FIRE: (Tool.GUN,),
-    Step.GUN_OUT: (Tool.GUN, Tool.FIRED),
-    Step.PLACE_ELECTRODE: (Tool.ELECTRODE,),
-    Step.ABLATE: (Tool.ELECTRODE,),
+    Step.INJECT: (ToolInHand.ANAESTHETIC,),
+    Step.TAKE_NEEDLE: (ToolInHand.ANAESTHETIC,),
+    Step.STYLET_OUT: (ToolInHand.STYLET,),
+    Step.STYLET_IN: (ToolInHand.OPEN,),
+    Step.GUN_IN: (ToolInHand.OPEN,),
+    Step.FIRE: (ToolInHand.GUN,),
+    Step.GUN_OUT: (ToolInHand.GUN, ToolInHand.FIRED),
+    Step.PLACE_ELECTRODE: (ToolInHand.ELECTRODE,),
+    Step.ABLATE: (ToolInHand.ELECTRODE,),
 }
 _TO: Final = {
-    Step.TAKE_NEEDLE: Tool.STYLET,
-    Step.STYLET_OUT: Tool.OPEN,
-    Step.STYLET_IN: Tool.STYLET,
-    Step.GUN_IN: Tool.GUN,
-    Step.FIRE: Tool.FIRED,
-    Step.GUN_OUT: Tool.OPEN,
+    Step.TAKE_NEEDLE: ToolInHand.STYLET,
+    Step.STYLET_OUT: ToolInHand.OPEN,
+    Step.STYLET_IN: ToolInHand.STYLET,
+    Step.GUN_IN: ToolInHand.GUN,
+    Step.FIRE: ToolInHand.FIRED,
+    Step.GUN_OUT: ToolInHand.OPEN,
 }
 TOOL_WORDS: Final = {
-    Tool.ANAESTHETIC: sentence("needle for local anaesthetic"),
-    Tool.STYLET: sentence("outer needle with its stylet"),
-    Tool.OPEN: sentence("outer needle, open to air"),
-    Tool.GUN: sentence("outer needle with the biopsy gun, cocked"),
-    Tool.FIRED: sentence("outer needle with the biopsy gun, fired"),
-    Tool.ELECTRODE: sentence("electrode"),
+    ToolInHand.ANAESTHETIC: sentence("needle for local anaesthetic"),
+    ToolInHand.STYLET: sentence("outer needle with its stylet"),
+    ToolInHand.OPEN: sentence("outer needle, open to air"),
+    ToolInHand.GUN: sentence("outer needle with the biopsy gun, cocked"),
+    ToolInHand.FIRED: sentence("outer needle with the biopsy gun, fired"),
+    ToolInHand.ELECTRODE: sentence("electrode"),
 }
 
 
@@ -139,7 +139,7 @@ class ProcedureState:
     """
 
     part: ProcedurePart
-    tool: Tool
+    tool: ToolInHand
     deposits: int = 0
     samples: tuple[SampleMark, ...] = ()
     plans: tuple[SamplePlan, ...] = ()
@@ -161,7 +161,7 @@ class ProcedureState:
                 plans = tuple(
                     plan_sample(field, plan.entry_mm, plan.target_mm, throw) for throw in throws
                 )
-        tool = _own_tool(part) if part.anaesthetic is None else Tool.ANAESTHETIC
+        tool = _own_tool(part) if part.anaesthetic is None else ToolInHand.ANAESTHETIC
         return cls(part, tool, plans=plans, ablation=ablation)
 
     @property
@@ -198,13 +198,13 @@ class ProcedureState:
         return ""
 
 
-def _own_tool(part: ProcedurePart) -> Tool:
+def _own_tool(part: ProcedurePart) -> ToolInHand:
     """Return what the exercise's own needle is."""
-    return Tool.STYLET if part.ablation is None else Tool.ELECTRODE
+    return ToolInHand.STYLET if part.ablation is None else ToolInHand.ELECTRODE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Needle:
+class _PlacedNeedle:
     """The needle in the patient, LPS [mm], and where the tissue about it rests."""
 
     depth_mm: float
@@ -326,7 +326,7 @@ def marks_of(
             open_from = None
     if open_from is not None:
         opened.append((open_from, np.inf))
-    begins = any(event.data.get("tool") == Tool.ANAESTHETIC.value for event, _ in steps)
+    begins = any(event.data.get("tool") == ToolInHand.ANAESTHETIC.value for event, _ in steps)
     if begins and needle_from is None:
         needle_from = np.inf  # it was never taken
     before = tuple(one for one in met or () if needle_from is not None and one.time < needle_from)
@@ -415,7 +415,7 @@ def _require_place(step: Step, look: NeedleNow | None) -> None:
         raise ProcedureNotPossibleError(sentence("the tip is outside the skin: insert it first"))
 
 
-def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | None) -> _Needle:
+def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | None) -> _PlacedNeedle:
     if look is None or field is None:
         raise ProcedureNotPossibleError(
             sentence("nothing tells which tissue lies where: use tissue: field in the exercise")
@@ -431,7 +431,7 @@ def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | Non
         return np.asarray(to_patient @ resting / MILLIMETRE)
 
     way = to_patient.rotate(look.tip_axis)
-    return _Needle(
+    return _PlacedNeedle(
         look.depth / MILLIMETRE,
         to_patient @ look.p_tip / MILLIMETRE,
         way / np.linalg.norm(way),
@@ -460,7 +460,7 @@ def _of_ablation(
     return replace(state, ablation=ablation), ablating.electrode_words(ablation), data
 
 
-def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit:
+def _deposit(field: TissueField | None, needle: _PlacedNeedle, time: float) -> Deposit:
     gap = None
     if field is not None:
         entry = needle.tip_mm - needle.depth_mm * needle.way
@@ -473,7 +473,7 @@ def _deposit(field: TissueField | None, needle: _Needle, time: float) -> Deposit
 def _sample(
     state: ProcedureState,
     field: TissueField | None,
-    needle: _Needle,
+    needle: _PlacedNeedle,
     throw: int,
     notch_deg: float,
     time: float,

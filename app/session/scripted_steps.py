@@ -26,7 +26,7 @@ from app.session.procedure import (
     KIND,
     ProcedureState,
     Step,
-    Tool,
+    ToolInHand,
     begin_data,
     perform,
 )
@@ -170,7 +170,7 @@ def steps_of_rows(
             return state
 
         if patient is not None:
-            is_outer = state.tool is not Tool.ANAESTHETIC
+            is_outer = state.tool is not ToolInHand.ANAESTHETIC
             events.extend(patient.look(needle, is_outer, time))
         steps.look(phase, time, act)
     return StepsDone(tuple(events), None if ablation is None else aside)

@@ -23,7 +23,7 @@ from app.session.complications import ComplicationsState
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
-from app.session.procedure import ProcedureState, Tool
+from app.session.procedure import ProcedureState, ToolInHand
 from app.session.recorder import RecordingStatus
 from app.session.touching import TargetMarks, TouchState
 from app.session.transitions import PauseCause
@@ -408,12 +408,12 @@ class NextSteps:
             return step
         inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
         own = NextStep(StepKind.PROCEDURE, procedure=state, inside=inside)
-        if state.ablation is not None and state.tool is Tool.ELECTRODE:
+        if state.ablation is not None and state.tool is ToolInHand.ELECTRODE:
             return _in_ablation(step, own, state.ablation)
-        if state.tool is Tool.ANAESTHETIC:
+        if state.tool is ToolInHand.ANAESTHETIC:
             aims = step.kind in (StepKind.TILT, StepKind.LOOK, StepKind.SCAN) and not inside
             return step if aims and not state.deposits else own
-        if state.tool is not Tool.STYLET or state.part.biopsy is None:
+        if state.tool is not ToolInHand.STYLET or state.part.biopsy is None:
             return own if state.part.biopsy is not None else step
         if step.kind in (StepKind.LOOK, StepKind.SCAN):
             return own if inside else step

@@ -52,7 +52,7 @@ from app.session.machine import IN_BODY, AttemptEvent
 from app.session.needle_now import NeedleNow
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.procedure import KIND as PROCEDURE
-from app.session.procedure import MARKED, ProcedureState, Step, Tool, begin_data
+from app.session.procedure import MARKED, ProcedureState, Step, ToolInHand, begin_data
 from app.session.procedure import VERSION as PROCEDURE_VERSION
 from app.session.resting import Resting
 from app.session.result import AttemptResult
@@ -396,7 +396,7 @@ class Trainer:
         if guidance.needle_ends is NeedleEnds.PLAIN:
             return Taking(order, guidance, choice, grid=grid)
         needle, procedure = self._exercise.needle, self._procedure
-        hollow = procedure is not None and procedure.tool is Tool.OPEN
+        hollow = procedure is not None and procedure.tool is ToolInHand.OPEN
         return Taking(order, guidance, choice, needle.gauge, needle.tip, hollow, grid)
 
     def _as_it_is(self, taking: Taking) -> Taking:
@@ -508,7 +508,7 @@ class Trainer:
         happens, running = self._happens, self._running
         if happens is None or not running.counts:
             return
-        is_outer = self._procedure is None or self._procedure.tool is not Tool.ANAESTHETIC
+        is_outer = self._procedure is None or self._procedure.tool is not ToolInHand.ANAESTHETIC
         for happening in happens.look(NeedleNow.of(seen), is_outer, now, running.paused):
             self._keep(happening, now)
         if self._answers is not None and running.acts:

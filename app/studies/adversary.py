@@ -16,8 +16,15 @@ from typing import Any, Final, Protocol
 from app.core.progress import Progress
 from app.exercises.library import library
 from app.studies.attacks.attack import Attack
-from app.studies.attacks.journal import AttackJournal, key_of
-from app.studies.attacks.search import AttackVerdict, Hole, TriedAttack, search, worst
+from app.studies.attacks.search import (
+    AttackJournal,
+    AttackVerdict,
+    Hole,
+    TriedAttack,
+    key_of,
+    search,
+    worst,
+)
 from app.studies.findings import Cell, Findings, Sheet, Survey
 
 DECLARATION: Final[dict[str, Any]] = {

@@ -17,8 +17,7 @@ from app.core import paths
 from app.core.progress import Progress
 from app.studies.coverage_trials.chain import chain
 from app.studies.coverage_trials.scene import LENSES, RIGS
-from app.studies.coverage_trials.tally import CoverageCell, CoverageTally
-from app.studies.coverage_trials.touches import KINDS, touched
+from app.studies.coverage_trials.tally import KINDS, CoverageCell, CoverageTally, touched
 from app.studies.findings import Figure, Findings, Sheet, Survey
 
 DECLARATION: Final[dict[str, Any]] = {

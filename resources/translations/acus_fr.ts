@@ -13980,7 +13980,7 @@ réglable</translation>
         </message>
         <message>
             <source>°</source>
-            <translation type="unfinished" />
+            <translation>°</translation>
         </message>
         <message>
             <source>Lets the simulated hand point the needle by these two angles, as by a protractor; a needle in your own hand you turn yourself</source>

@@ -18,7 +18,7 @@ from app.session.procedure import (
     NeedleNow,
     ProcedureState,
     Step,
-    Tool,
+    ToolInHand,
     begin_data,
     marks_of,
     perform,
@@ -75,20 +75,20 @@ def samples(until: float = 100.0) -> Any:
 
 def test_a_whole_biopsy_runs_in_its_order() -> None:
     state = ProcedureState.at_begin(WHOLE)
-    assert state.tool is Tool.ANAESTHETIC
+    assert state.tool is ToolInHand.ANAESTHETIC
     state, _ = done(state, Step.INJECT, needle(16.0))
     state, _ = done(state, Step.TAKE_NEEDLE, needle(-5.0))
     for step in SAMPLE * 2:
         assert step in state.possible
         state, _ = done(state, step, needle(26.0))
-    assert state.tool is Tool.STYLET
+    assert state.tool is ToolInHand.STYLET
     assert (state.deposits, len(state.samples)) == (1, 2)
     assert all(one.is_diagnostic for one in state.samples)
 
 
 def test_without_local_anaesthetic_the_outer_needle_is_held_from_the_beginning() -> None:
     state = ProcedureState.at_begin(ProcedurePart(biopsy=BiopsyPart()))
-    assert state.tool is Tool.STYLET
+    assert state.tool is ToolInHand.STYLET
     assert Step.INJECT not in state.possible
     assert Step.TAKE_NEEDLE not in state.possible
 

@@ -14,8 +14,7 @@ from app.planning.judged import JudgedPlan
 from app.simulation.trainee import ScriptPhase
 from app.studies.adversary import attack_exercises
 from app.studies.attacks.attack import GENES, HONEST, RANGES, Attack, honest_genes
-from app.studies.attacks.journal import AttackJournal
-from app.studies.attacks.search import FAR_MM, AttackVerdict, Hole, search, worst
+from app.studies.attacks.search import FAR_MM, AttackJournal, AttackVerdict, Hole, search, worst
 from app.studies.errors import StudyError
 from app.studies.findings import Survey
 from app.studies.runner import find_study

@@ -5,8 +5,7 @@ import pytest
 from app.studies.coverage import RIGHT, findings
 from app.studies.coverage_trials.chain import QUANTITIES, SETS, chain
 from app.studies.coverage_trials.scene import LENSES, RIGS
-from app.studies.coverage_trials.tally import CoverageCell, CoverageTally
-from app.studies.coverage_trials.touches import KINDS, touched
+from app.studies.coverage_trials.tally import KINDS, CoverageCell, CoverageTally, touched
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.scoring.complications.answers import Reaction
 from app.scoring.complications.course import Vitals
 from app.session.complications import ComplicationsState
-from app.views.exercise.complication_panel import ComplicationPanel
+from app.views.exercise.procedure_panel import ComplicationPanel
 
 
 @pytest.fixture

@@ -7,8 +7,7 @@ import pytest
 from app.core.errors import ConfigurationError
 from app.imaging.pacs.query import FoundSeries, FoundStudy
 from app.views.kit.text import day
-from app.views.pacs.panel import PacsPanel
-from app.views.pacs.words import dates_asked, name_asked, name_words
+from app.views.pacs.panel import PacsPanel, dates_asked, name_asked, name_words
 
 # DICOM PS3.5, section 6.2.1.2: examples of person names.
 NAMES = {

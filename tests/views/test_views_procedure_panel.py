@@ -8,7 +8,7 @@ from app.exercises.procedure import AnaestheticPart, BiopsyPart, ProcedurePart
 from app.imaging.field.tissue_field import TissueKind
 from app.planning.sampling import Ahead, SamplePlan
 from app.scoring.procedure import SampleMark
-from app.session.procedure import ProcedureState, Step, Tool
+from app.session.procedure import ProcedureState, Step, ToolInHand
 from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.procedure_panel import ProcedurePanel
 from app.views.exercise.steps import step_words
@@ -16,7 +16,7 @@ from app.views.exercise.steps import step_words
 PART = ProcedurePart(anaesthetic=AnaestheticPart(), biopsy=BiopsyPart())
 
 
-def state(tool: Tool, **more: Any) -> ProcedureState:
+def state(tool: ToolInHand, **more: Any) -> ProcedureState:
     return ProcedureState(PART, tool, **more)
 
 
@@ -38,12 +38,12 @@ def test_without_a_procedure_nothing_is_there(panel: ProcedurePanel) -> None:
 @pytest.mark.parametrize(
     ("shown", "inside", "step"),
     [
-        (state(Tool.ANAESTHETIC), True, Step.INJECT),
-        (state(Tool.ANAESTHETIC, deposits=1), False, Step.TAKE_NEEDLE),
-        (state(Tool.STYLET), True, Step.STYLET_OUT),
-        (state(Tool.OPEN), True, Step.GUN_IN),
-        (state(Tool.GUN), True, Step.GUN_OUT),
-        (state(Tool.FIRED, samples=(SampleMark(1.0, 5.0, True),)), True, Step.GUN_OUT),
+        (state(ToolInHand.ANAESTHETIC), True, Step.INJECT),
+        (state(ToolInHand.ANAESTHETIC, deposits=1), False, Step.TAKE_NEEDLE),
+        (state(ToolInHand.STYLET), True, Step.STYLET_OUT),
+        (state(ToolInHand.OPEN), True, Step.GUN_IN),
+        (state(ToolInHand.GUN), True, Step.GUN_OUT),
+        (state(ToolInHand.FIRED, samples=(SampleMark(1.0, 5.0, True),)), True, Step.GUN_OUT),
     ],
 )
 def test_the_key_does_what_follows_in_the_usual_order(
@@ -56,28 +56,28 @@ def test_the_key_does_what_follows_in_the_usual_order(
 
 def test_after_a_sample_the_stylet_goes_back_first(panel: ProcedurePanel) -> None:
     sample = (SampleMark(1.0, 5.0, True),)
-    panel.show_procedure(state(Tool.FIRED, samples=sample), True, True)
-    panel.show_procedure(state(Tool.OPEN, samples=sample), True, True)
+    panel.show_procedure(state(ToolInHand.FIRED, samples=sample), True, True)
+    panel.show_procedure(state(ToolInHand.OPEN, samples=sample), True, True)
     assert panel.next.text() == "Stylet in (J)"
 
 
 def test_whoever_presses_the_key_at_once_does_not_leave_the_anaesthetic_out(
     panel: ProcedurePanel,
 ) -> None:
-    panel.show_procedure(state(Tool.ANAESTHETIC), True, False)
+    panel.show_procedure(state(ToolInHand.ANAESTHETIC), True, False)
     assert not panel.next.isEnabled()
 
 
 def test_nothing_can_be_done_while_the_attempt_waits_or_another_leads(
     panel: ProcedurePanel,
 ) -> None:
-    panel.show_procedure(state(Tool.GUN), False, True)
+    panel.show_procedure(state(ToolInHand.GUN), False, True)
     assert not panel.next.isEnabled()
     assert not panel.fire.isEnabled()
 
 
 def test_firing_tells_the_chosen_throw_and_notch(panel: ProcedurePanel) -> None:
-    panel.show_procedure(state(Tool.GUN), True, True)
+    panel.show_procedure(state(ToolInHand.GUN), True, True)
     panel.throw.setCurrentIndex(1)
     panel.notch.setCurrentIndex(3)
     panel.fire.click()
@@ -90,7 +90,7 @@ def test_what_a_throw_would_meet_by_the_plan_is_told_before_it(panel: ProcedureP
         SamplePlan(PART.biopsy.throw(n), 60.0 + n, 6.0, hits)  # type: ignore[union-attr]
         for n, hits in enumerate(((vessel,), ()))
     )
-    panel.show_procedure(state(Tool.STYLET, plans=plans), True, False)
+    panel.show_procedure(state(ToolInHand.STYLET, plans=plans), True, False)
     assert "stop 60 mm deep" in panel.results.text()
     assert "▲ the throw meets aorta 15.0 mm ahead" in panel.results.text()
     panel.throw.setCurrentIndex(1)
@@ -99,7 +99,7 @@ def test_what_a_throw_would_meet_by_the_plan_is_told_before_it(panel: ProcedureP
 
 def test_each_sample_is_told_by_sign_and_words(panel: ProcedurePanel) -> None:
     samples = (SampleMark(1.0, 9.95, True), SampleMark(2.0, 1.0, False, ("the throw meets rib",)))
-    panel.show_procedure(state(Tool.OPEN, samples=samples), True, True)
+    panel.show_procedure(state(ToolInHand.OPEN, samples=samples), True, True)
     first, second, third = panel.results.text().splitlines()
     assert first.startswith("✔ Sample 1: 9.9") or first.startswith("✔ Sample 1: 10.0")
     assert second.startswith("✖ Sample 2: 1.0 mm of lesion, 3 mm are needed")
@@ -109,11 +109,11 @@ def test_each_sample_is_told_by_sign_and_words(panel: ProcedurePanel) -> None:
 def test_every_tool_has_its_order_on_the_line_over_the_views() -> None:
     words = {
         step_words(NextStep(StepKind.PROCEDURE, procedure=state(tool), inside=True), True)
-        for tool in Tool
+        for tool in ToolInHand
     }
-    assert len(words) == len(Tool)
-    given = state(Tool.ANAESTHETIC, deposits=1)
+    assert len(words) == len(ToolInHand)
+    given = state(ToolInHand.ANAESTHETIC, deposits=1)
     for inside in (True, False):
         step = NextStep(StepKind.PROCEDURE, procedure=given, inside=inside)
         words.add(step_words(step, True))
-    assert len(words) == len(Tool) + 2
+    assert len(words) == len(ToolInHand) + 2

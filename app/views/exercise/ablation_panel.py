@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
 from app.imaging.field.tissue_words import tissue_words
 from app.session.ablation import AblationState
 from app.session.ablation_shown import AblationShown, MarginsShown
-from app.session.procedure import ProcedureState, Step, Tool
+from app.session.procedure import ProcedureState, Step, ToolInHand
 from app.views.kit import theme
 from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.text import literal, number, tr, translated
@@ -97,7 +97,7 @@ class AblationPanel(QWidget):
     def _show(
         self, state: ProcedureState, ablation: AblationState, commands: bool, inside: bool
     ) -> None:
-        if state.tool is Tool.ANAESTHETIC:
+        if state.tool is ToolInHand.ANAESTHETIC:
             self.held.setText(tr("Held: {tool}", tool=translated(state.words)))
         else:
             self.held.setText(_standing(ablation))

@@ -30,12 +30,11 @@ from app.session.snapshot import BreathHold, Snapshot
 from app.views.exercise.ablation_panel import AblationPanel
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.attempt_rail import AttemptRail
-from app.views.exercise.complication_panel import ComplicationPanel
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.entry_marking import EntryMarkPanel
 from app.views.exercise.live import LiveFigures
-from app.views.exercise.procedure_panel import ProcedurePanel
+from app.views.exercise.procedure_panel import ComplicationPanel, ProcedurePanel
 from app.views.exercise.readouts import AttemptReadouts
 from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.stages import Steps

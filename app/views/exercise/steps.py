@@ -8,7 +8,7 @@ from PySide6.QtGui import QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.units import MILLIMETRE
-from app.session.procedure import ProcedureState, Tool
+from app.session.procedure import ProcedureState, ToolInHand
 from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, StepKind
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
@@ -169,26 +169,26 @@ def procedure_words(state: ProcedureState, inside: bool) -> str:
         state: how the attempt stands with them.
         inside: whether the tip is in the body.
     """
-    if state.ablation is not None and state.tool is Tool.ELECTRODE:
+    if state.ablation is not None and state.tool is ToolInHand.ELECTRODE:
         if state.ablation.all_placed:
             return tr("Start the generator (J)")
         if not inside:
             return tr("Draw the needle out of the skin, turn it to {n}", n=state.ablation.number)
         return tr("Leave electrode {n} here (J)", n=state.ablation.number)
-    if state.tool is Tool.ANAESTHETIC and state.deposits:
+    if state.tool is ToolInHand.ANAESTHETIC and state.deposits:
         if inside:
             return tr("Draw the needle out, or give more (J)")
         return tr("Take the outer needle (J)")
-    if state.tool is Tool.STYLET and state.samples:
+    if state.tool is ToolInHand.STYLET and state.samples:
         return tr("Another sample: stylet out (J). Enter ends the attempt")
     return {
-        Tool.ANAESTHETIC: tr(
+        ToolInHand.ANAESTHETIC: tr(
             "Push to just before pleura or capsule, then give local anaesthetic (J)"
         ),
-        Tool.STYLET: tr("Stop with the tip at the lesion's near edge, then stylet out (J)"),
-        Tool.OPEN: tr("The hub is open: gun in, or stylet in (J)"),
-        Tool.GUN: tr("Hold still and fire (Ctrl+J)"),
-        Tool.FIRED: tr("Gun out (J)"),
+        ToolInHand.STYLET: tr("Stop with the tip at the lesion's near edge, then stylet out (J)"),
+        ToolInHand.OPEN: tr("The hub is open: gun in, or stylet in (J)"),
+        ToolInHand.GUN: tr("Hold still and fire (Ctrl+J)"),
+        ToolInHand.FIRED: tr("Gun out (J)"),
     }[state.tool]
 
 
