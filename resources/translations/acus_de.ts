@@ -19332,10 +19332,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Reibung des Gewebes am eingeführten Schaft</translation>
         </message>
         <message>
-            <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, the breath, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, and an assessment by control scans alone.</source>
-            <translation>Vom ersten Einstich bis zur ganzen Biopsie eines Lungenherds: Hand und Gewebe, der Atem, das Wählen eines Wegs, ein doppelt schräger Weg zwischen zwei Rippen, die ganze Biopsie und eine Prüfung allein mit Kontrollscans.</translation>
-        </message>
-        <message>
             <source>Fréchet distance from the path</source>
             <translation type="unfinished">Fréchet-Abstand vom Pfad</translation>
         </message>
@@ -19616,8 +19612,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Oberflächen der 3D-Ansicht: Auflösung des Gitters gegenüber Zeit</translation>
         </message>
         <message>
-            <source>Take two samples of the nodule in the right lung by control scans: local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). An answer to what is not there counts as a wrong one.</source>
-            <translation>Nehmen Sie unter Kontrollscans zwei Proben des Knotens in der rechten Lunge: Lokalanästhesie bis an die Pleura (J), die Hohlnadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Biopsiepistole hinein (J), auslösen (Ctrl+J), Pistole heraus, Mandrin hinein. Scannen Sie wieder (S), und achten Sie auf Monitor und Patient: die Lunge kann zusammenfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J). Eine Antwort auf etwas, das nicht da ist, zählt als falsche.</translation>
+            <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
+            <translation>Vom ersten Einstich bis zur ganzen Biopsie eines Lungenherds: Hand und Gewebe, das Wählen eines Wegs, ein doppelt schräger Weg zwischen zwei Rippen, die ganze Biopsie, eine, bei der etwas geschehen kann, und eine Prüfung allein mit Kontrollscans.</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). An answer to what is not there counts as a wrong one.</source>
+            <translation>Nehmen Sie unter Kontrollscans zwei Proben des Rundherds in der rechten Lunge: den Einstich nach dem Gitter markieren, Lokalanästhesie bis an die Pleura (J), die Außennadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Gerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein. Scannen Sie wieder (S), und achten Sie auf Monitor und Patient: die Lunge kann zusammenfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J). Eine Antwort auf etwas, das nicht da ist, zählt als falsche.</translation>
         </message>
         <message>
             <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>

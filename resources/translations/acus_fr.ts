@@ -19332,10 +19332,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Frottement du tissu le long de la tige introduite</translation>
         </message>
         <message>
-            <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, the breath, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, and an assessment by control scans alone.</source>
-            <translation>De la première insertion à la biopsie entière d'un nodule pulmonaire : main et tissu, respiration, choix d'un trajet, trajet doublement oblique entre deux côtes, biopsie entière, et une évaluation par scans de contrôle seuls.</translation>
-        </message>
-        <message>
             <source>Fréchet distance from the path</source>
             <translation type="unfinished">Distance de Fréchet à la trajectoire</translation>
         </message>
@@ -19616,8 +19612,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Surfaces de la vue 3D : résolution de la grille face au temps</translation>
         </message>
         <message>
-            <source>Take two samples of the nodule in the right lung by control scans: local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). An answer to what is not there counts as a wrong one.</source>
-            <translation>Prélevez deux échantillons du nodule du poumon droit sous scanners de contrôle : anesthésie locale jusqu’à la plèvre (J), l’aiguille externe (J), une pause, et une seule fois à travers la plèvre. Mandrin retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, mandrin remis. Refaites un scanner (S), et surveillez moniteur et patient : le poumon peut se rétracter, ou saigner. Dites-le dès que vous le voyez (Shift+J), choisissez ce qu’il faut faire, et faites-le (Ctrl+Shift+J). Une réponse à ce qui n’existe pas compte comme fausse.</translation>
+            <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
+            <translation>De la première insertion à la biopsie entière d'un nodule pulmonaire : main et tissu, choix d'un trajet, trajet doublement oblique entre deux côtes, biopsie entière, une où quelque chose peut arriver, et une évaluation par scans de contrôle seuls.</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). An answer to what is not there counts as a wrong one.</source>
+            <translation>Prélevez deux échantillons du nodule du poumon droit sous scans de contrôle : marquez l'entrée d'après la grille, anesthésie locale jusqu'à la plèvre (J), l'aiguille externe (J), une pause, et une seule fois à travers la plèvre. Stylet retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, stylet remis. Refaites un scan (S), et surveillez moniteur et patient : le poumon peut se rétracter, ou saigner. Dites-le dès que vous le voyez (Shift+J), choisissez ce qu'il faut faire, et faites-le (Ctrl+Shift+J). Une réponse à ce qui n'existe pas compte comme fausse.</translation>
         </message>
         <message>
             <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>

@@ -809,4 +809,4 @@ def test_a_new_course_begins_with_a_plan_that_ships(window, feature, settle):
     assert dialog.id.text() == "mine", "what was typed stays"
     assert dialog.items.rowCount() == 6, "in place of what was there"
     dialog.save()
-    assert find_course("mine").items[4].exercise == "lung-biopsy"
+    assert find_course("mine").items[3].exercise == "lung-biopsy"
