@@ -7,6 +7,7 @@ import pytest
 
 from app.exercises.guidance import GuidancePart
 from app.exercises.parts import EffectPart, LawPart, LayerPart, PlacementPart, ViewName
+from app.exercises.procedure import ProcedurePart
 from app.exercises.reading import ReadingPart
 from app.exercises.schema import Exercise
 from app.scoring.defaults import DEFAULT_TOLERANCES
@@ -31,6 +32,7 @@ def test_every_field_of_the_file_is_explained_and_no_other() -> None:
     fields = {f"placement.{name}" for name in PlacementPart.model_fields}
     fields |= {f"guidance.{name}" for name in GuidancePart.model_fields}
     fields |= {f"reading.{name}" for name in ReadingPart.model_fields}
+    fields |= {f"procedure.{name}" for name in ProcedurePart.model_fields}
     assert nested == fields | {f"rules.{name}" for name in ScoreRules.model_fields}
 
 

@@ -7,7 +7,11 @@ from app.exercises.schema import Exercise
 PLACES = {
     PractisedSkill.HAND: {"first-insertion", "thick-tissue", "with-less-help", "against-repulsion"},
     PractisedSkill.BREATH: {"breathing-liver", "kidney", "hold-the-breath", "lung-between-ribs"},
-    PractisedSkill.PROCEDURE: {"lung-biopsy", "liver-ablation"},
+    PractisedSkill.PROCEDURE: {
+        "lung-biopsy",
+        "lung-biopsy-complications",
+        "liver-ablation",
+    },
     PractisedSkill.CLEARANCE: {"past-the-vessel", "beside-the-vein"},
     PractisedSkill.PLAN: {"plan-it-yourself", "scans-only"},
     PractisedSkill.MACHINE: {"tensegrity-liver", "laparoscopic-tool"},
