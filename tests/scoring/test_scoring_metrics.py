@@ -7,12 +7,18 @@ from hypothesis import strategies as st
 from scoring_attempts import Attempt, placed_plan
 
 from app.planning.judged import JudgedPlan
+from app.planning.lung_path.values import LungCrossing, LungPathReport
 from app.planning.placement import PatientOrientation, Placement
 from app.scoring import metrics
+from app.scoring.ablation import AblationMark
+from app.scoring.complications.answers import Kind
+from app.scoring.complications.marks import ComplicationMarks, Demand
 from app.scoring.errors import MetricUnavailableError, UnknownMetricError
 from app.scoring.met import Met
 from app.scoring.paths import raw_length, smooth_length
+from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
 from app.scoring.risks import RiskMark
+from app.scoring.scans import ScanMark
 from app.scoring.score import score
 from app.scoring.touches import Touches
 from app.scoring.trajectory import Phase, Trajectory
@@ -55,6 +61,40 @@ LUNG = Met("lung", "", 20.0, 15.0, ((0, 0, 0), (0, 15, 0)), 0.3, 12.0, 1.0, befo
 RIB = Met("bone", "rib", 12.0, 0.0, ((0, 0, 0), (0, 0, 0)), force_n=6.0)
 
 
+REPORT = LungPathReport(
+    entry_mm=(0.0, 0.0, 0.0),
+    target_mm=(0.0, 60.0, 0.0),
+    length_mm=60.0,
+    unknown_mm=0.0,
+    pleura=(LungCrossing(20.0, 12.0, (0.0, 20.0, 0.0)),),
+    fissures=(),
+    lung_mm=35.0,
+    emphysema_mm=0.0,
+    rib_below_mm=6.0,
+    rib_above_mm=5.0,
+    rib_below_at=None,
+    rib_above_at=None,
+    intercostal_mm=4.0,
+    spine_mm=90.0,
+    is_protected=True,
+    vessels=(),
+    bronchi=(),
+)
+STEPS = ProcedureMarks(
+    deposits=(Deposit(1.0, 18.0, 2.0),),
+    samples=(SampleMark(2.0, 6.0, True),),
+    open_s=4.0,
+    complications=ComplicationMarks(
+        begun=((Kind.PNEUMOTHORAX, 1.0),),
+        demands=(Demand(Kind.PNEUMOTHORAX, "small", 1, 1.0),),
+        noticed=(3.0,),
+        until=100.0,
+    ),
+    ablation=AblationMark(4.0, 6.0, 0.98),
+    entry_error_mm=2.0,
+)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
     base = Attempt(noise=1e-4, force=1.0).trajectory()
@@ -65,7 +105,9 @@ def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
         "clamped": np.zeros(len(base), dtype=bool),
         "touches": Touches(2, (float(base.time[-1]),)),
         "met": (RIB, LUNG),
-        "planned": JudgedPlan(60.0, 80.0, 12.0, 5.0, "rib", 9.0),
+        "planned": JudgedPlan(60.0, 80.0, 12.0, 5.0, "rib", 9.0, lung=REPORT),
+        "scans": (ScanMark(float(base.time[5]), 10.0, 2.5),),
+        "procedure": STEPS,
     }
     trajectory = Attempt(noise=1e-4, force=1.0).trajectory(**facts)
     assert np.isfinite(value(name, trajectory))

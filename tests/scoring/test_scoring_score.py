@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scoring_attempts import Attempt
 
+from app.exercises.procedure import OF_PROCEDURES
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError, ToleranceError, UnknownMetricError
 from app.scoring.metrics import available
@@ -172,6 +173,9 @@ PLANS = {
 }
 """Metrics of a plan of the student's own."""
 
+STEPS = {"pause_before_pleura", "hand_dose"}.union(*OF_PROCEDURES.values())
+"""Metrics of steps and scans that only some exercises ask for."""
+
 TOUCHES = {"targets_touched", "time_per_target", "economy_of_motion"}
 """Metrics of targets to be touched, which only some exercises have."""
 
@@ -184,9 +188,8 @@ def test_what_the_exercise_does_not_have_is_a_row_only_where_it_has_a_tolerance(
 
 def test_metrics_without_a_tolerance_are_shown_and_not_counted() -> None:
     result = score(PERFECT.trajectory(), {"angle_error": bands(1, 2, 3)})
-    assert {row.name for row in result.rows} == set(available()) - RISKS - TOUCHES - MET - PLANS - {
-        "breath_offset"
-    }
+    asked_for = RISKS | TOUCHES | MET | PLANS | STEPS | {"breath_offset"}
+    assert {row.name for row in result.rows} == set(available()) - asked_for
     assert result.rows[0].name == "angle_error"
     assert result.row("peak_force").utility is None
     assert result.total == pytest.approx(100.0)

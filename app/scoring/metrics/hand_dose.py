@@ -3,7 +3,7 @@
 from typing import Any, Final
 
 from app.core.messages import sentence
-from app.scoring.errors import MetricUnavailableError
+from app.scoring.errors import MetricNotAskedError, MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -18,13 +18,14 @@ def compute(trajectory: Trajectory) -> float:
     """Dose [µSv]: of all scans for which the student stayed in the room.
 
     Raises:
-        MetricUnavailableError: if the attempt never got that far, or no scan says a dose.
+        MetricUnavailableError: if the attempt never got that far.
+        MetricNotAskedError: if no scan says a dose.
     """
     if not trajectory.running.any():
         raise MetricUnavailableError(sentence("the attempt never got that far"))
     doses = [scan.hand_usv for scan in trajectory.scans if scan.hand_usv is not None]
-    if trajectory.scans and not doses:
-        raise MetricUnavailableError(
+    if not doses:
+        raise MetricNotAskedError(
             sentence("no control scan says a dose of the hand: the exercise does not ask for it")
         )
     return float(sum(doses))

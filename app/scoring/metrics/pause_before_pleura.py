@@ -33,8 +33,10 @@ def compute(trajectory: Trajectory) -> float:
     """Return the time [s], 0 without a rest.
 
     Raises:
+        MetricNotAskedError: if the exercise has no steps of a procedure.
         MetricUnavailableError: if no pleura or capsule was crossed.
     """
+    trajectory.steps()
     crossed = [
         one
         for one in trajectory.tissues_met()
