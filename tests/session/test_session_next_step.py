@@ -34,6 +34,7 @@ class Moment:
     pose: SimpleNamespace
     offset: object
     touch: object = None
+    procedure: object = None
     device: object = None
     pause: object = None
     ready: bool = False
