@@ -152,7 +152,7 @@ def test_the_record_gives_every_choice_back_and_lists_it(bench: Bench) -> None:
 
 def test_the_exercises_own_needle_is_drawn_and_a_stylet_that_is_out_leaves_it_hollow(bench) -> None:
     bench.trainer.scan(order(), ScanChoice(50.0))
-    bench.trainer._procedure = SimpleNamespace(tool=ToolInHand.OPEN)
+    bench.trainer._procedure = SimpleNamespace(tool=ToolInHand.OPEN, ablation=None)
     bench.trainer.scan(order(), ScanChoice(50.0))
     solid, hollow = taken(bench)
     assert (solid.needle.radius_mm, solid.needle.tip) == (pytest.approx(0.454), ScanTip.CONE)
