@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.exercises.hand_bands import bands_among
 from app.exercises.parts import KILOPASCAL, OF_OWN_PLANS, LayerPart, LayersFrom, TissueSource
+from app.exercises.procedure import OF_PROCEDURES
 from app.imaging.tissue import Tissue, tissue_along
 from app.simulation.bound_field import MOVING
 from app.simulation.scene import BONE, FAT, LIVER, LUNG, MUSCLE, SKIN, TissueLayer
@@ -147,13 +148,13 @@ def in_layers(exercise: Exercise) -> Exercise:
         for name, part in exercise.effects.items()
     }
     rules = exercise.rules.model_copy(update={"forbidden": ()})
-    judged = {
-        name: bands for name, bands in exercise.tolerances.items() if name not in OF_OWN_PLANS
-    }
+    asked = OF_OWN_PLANS.union(*OF_PROCEDURES.values())
+    judged = {name: bands for name, bands in exercise.tolerances.items() if name not in asked}
     changes = {
         "tissue": TissueSource.LAYERS,
         "effects": effects,
         "rules": rules,
+        "procedure": None,  # what a step meets is looked up in the field
         "tolerances": judged,
         "bands": bands_among(exercise.bands, judged),
     }
