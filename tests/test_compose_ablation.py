@@ -32,7 +32,7 @@ def test_an_expert_reaches_the_wanted_margin_and_passes_and_a_novice_does_not(pr
     assert spacing[0] < 3.0 < spacing[1]
 
 
-@pytest.mark.long
+@pytest.mark.long("statistics")
 def test_an_attempt_without_a_trainer_scores_as_one_with_it(prepared):
     exercise, placed, field = prepared
     quick = Trials(exercise, placed, tissues=field).score("expert", 1).score

@@ -17872,14 +17872,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">rückgängig, wiederholen</translation>
         </message>
         <message>
-            <source>procedure: next step; fire the biopsy gun</source>
-            <translation>Eingriff: nächster Schritt; Biopsiegerät auslösen</translation>
-        </message>
-        <message>
-            <source>patient: something is wrong; do what is chosen</source>
-            <translation>Patient: etwas stimmt nicht; tun, was gewählt ist</translation>
-        </message>
-        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">Plan speichern, speichern als</translation>
         </message>
@@ -17890,6 +17882,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>pen and webcam: a needle without a robot</source>
             <translation type="unfinished">Stift und Webcam: eine Nadel ohne Roboter</translation>
+        </message>
+        <message>
+            <source>next step, fire the gun (something is wrong, do it)</source>
+            <translation>nächster Schritt, auslösen (etwas stimmt nicht, tun)</translation>
         </message>
         <message>
             <source>open CT folder, open plan</source>

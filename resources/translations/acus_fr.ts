@@ -17872,14 +17872,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">annuler, rétablir</translation>
         </message>
         <message>
-            <source>procedure: next step; fire the biopsy gun</source>
-            <translation>intervention : étape suivante ; déclencher le pistolet à biopsie</translation>
-        </message>
-        <message>
-            <source>patient: something is wrong; do what is chosen</source>
-            <translation>patient : quelque chose ne va pas ; faire ce qui est choisi</translation>
-        </message>
-        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">enregistrer le plan, enregistrer sous</translation>
         </message>
@@ -17890,6 +17882,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>pen and webcam: a needle without a robot</source>
             <translation type="unfinished">stylo et webcam : une aiguille sans robot</translation>
+        </message>
+        <message>
+            <source>next step, fire the gun (something is wrong, do it)</source>
+            <translation>étape suivante, tirer (quelque chose ne va pas, le faire)</translation>
         </message>
         <message>
             <source>open CT folder, open plan</source>

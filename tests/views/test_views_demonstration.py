@@ -69,7 +69,7 @@ def test_where_scans_guide_one_is_taken_at_the_target(window, patient, settle) -
     run = window.conductor.controller.run
     object.__setattr__(run, "shown", Shown(live=False))
     scans = []
-    run.trainer.scan = lambda order=None: scans.append(order)
+    run.trainer.scan = lambda order=None, choice=None: scans.append(order)
     show = Demonstration(window, DemonstrationScript())
     snapshot = run.trainer.snapshot()
     snapshot.device.row[show_slot()] = 9.0

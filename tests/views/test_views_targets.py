@@ -105,7 +105,9 @@ def test_the_present_target_is_that_of_slices_and_3d_and_stays_so_when_the_plan_
 
     def show(touched):
         touch = TouchState(task, touched)
-        motion.show(run, SimpleNamespace(touch=touch, p_target=touch.aim.p_target))
+        motion.show(
+            run, SimpleNamespace(touch=touch, p_target=touch.aim.p_target, target_marks=touch.marks)
+        )
         return touch.aim.plan.target_mm
 
     for touched in (0, 0, 1):

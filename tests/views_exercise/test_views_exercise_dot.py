@@ -37,8 +37,9 @@ def moment(plan, depth, tilt, bend=(0.0, 0.0), breath=(0.0, 0.0, 0.0), measured=
     target = plan.p_target + np.asarray(breath)
     pose = SimpleNamespace(axis=axis, depth=depth, measured=measured, valid=True, p_tip=tip,
                            covariance=sigma**2 * np.eye(3))  # fmt: skip
-    return SimpleNamespace(state=State.INSERTING, pose=pose, touch=None, device=None, pause=None,
-                           offset=offset(tip, axis, plan, target), p_target=target)  # fmt: skip
+    return SimpleNamespace(state=State.INSERTING, pose=pose, touch=None, procedure=None,
+                           device=None, pause=None, offset=offset(tip, axis, plan, target),
+                           p_target=target)  # fmt: skip
 
 
 def view_of(now):

@@ -29,7 +29,7 @@ from app.planning.patient import Patient
 from app.planning.plan import Plan
 from app.views.exercise.scan_view import FARTHEST_MM
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import tr, translated
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.theme import Mark
 from app.views.plan.editor import PlanEditor
 from app.views.slices.drawing import Drawing, Shape
@@ -113,7 +113,7 @@ class EntryMarkPanel(QWidget):
             (self.offset, tr("Beside it"), tr("Along the skin, + towards the next number")),
         ):
             widget.setAccessibleName(name)
-            widget.setToolTip(help_text)
+            widget.setToolTip(literal(help_text))
             widget.setFocusPolicy(Qt.FocusPolicy.StrongFocus)  # no wheel by chance
             widget.valueChanged.connect(lambda _: self.moved.emit())
         for field in (self.table, self.offset):
@@ -136,7 +136,7 @@ class EntryMarkPanel(QWidget):
             field.setDecimals(1)
             field.setSuffix(tr("°"))
             field.setAccessibleName(name)
-            field.setToolTip(help_text)
+            field.setToolTip(literal(help_text))
             field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.dial.setToolTip(
             tr(

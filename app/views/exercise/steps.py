@@ -88,6 +88,7 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
         StepKind.DEEPER: tr("Push {mm} mm deeper{how}", mm=amount(mm), how=inwards),
         StepKind.BACK: tr("Pull back {mm} mm{how}", mm=amount(mm), how=outwards),
         StepKind.HOLD: tr("Hold still"),
+        StepKind.PROCEDURE: tr("Next step (J)"),
         StepKind.TOUCH: tr("Bring the tip to the target"),
         StepKind.STAY: tr("Stay on the target"),
         StepKind.FINISH: tr("Press Enter: the tip is at the target"),

@@ -314,9 +314,12 @@ def _heights() -> tuple[int, int]:
 
 
 def fitting(text: str, metrics: QFontMetrics, width: int, lines: int) -> str:
-    """Return as many whole words as stand on so many lines, with dots where some are left out."""
+    """Return as many words as stand on so many lines, with dots where some are left out.
+
+    A word that is wider than a line ends with dots itself.
+    """
     taken, flags = "", int(Qt.TextFlag.TextWordWrap)
-    words = text.split()
+    words = [metrics.elidedText(w, Qt.TextElideMode.ElideRight, width) for w in text.split()]
     room = lines * (metrics.lineSpacing() + 1)  # Qt rounds each line up
     for number, word in enumerate(words):
         longer = f"{taken} {word}".strip()
