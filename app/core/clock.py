@@ -16,6 +16,10 @@ class Clock(Protocol):
         """Let `duration` [s] pass."""
         ...
 
+    def sleep_until(self, moment: float) -> None:
+        """Let time pass up to a moment [s]; what is over already is not waited for."""
+        ...
+
 
 class SystemClock:
     """The machine's monotonic clock: the same one that the compiled loop reads."""
@@ -27,6 +31,10 @@ class SystemClock:
     def sleep(self, duration: float) -> None:
         """Sleep [s]."""
         time.sleep(max(0.0, duration))
+
+    def sleep_until(self, moment: float) -> None:
+        """Sleep up to a moment [s]."""
+        self.sleep(moment - self.now())
 
 
 @dataclass
@@ -42,3 +50,7 @@ class VirtualClock:
     def sleep(self, duration: float) -> None:
         """Advance virtual time [s]."""
         self.time += max(0.0, duration)
+
+    def sleep_until(self, moment: float) -> None:
+        """Advance virtual time up to a moment [s]."""
+        self.time = max(self.time, moment)

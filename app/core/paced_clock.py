@@ -78,11 +78,18 @@ class PacedClock:
 
     def sleep(self, duration: float) -> None:
         """Wait until `duration` [s] have passed; while nobody lets time pass, for a moment."""
-        end = self._now + duration
+        self.sleep_until(self._now + duration)
+
+    def sleep_until(self, moment: float) -> None:
+        """Wait until a moment [s]; while nobody lets time pass, for an instant at most.
+
+        Whoever holds time until then sleeps so, and not for a duration: between asking how long and
+        sleeping time may have come to that moment, and would then wait for him, and he for time.
+        """
         with self._passing:
             if not self._runs:
-                self._passing.wait(min(max(duration, 0.0), _LOOK))
-            while self._runs and self._now < end - 1e-9:
+                self._passing.wait(min(max(moment - self._now, 0.0), _LOOK))
+            while self._runs and self._now < moment - 1e-9:
                 self._passing.wait(_LOOK)
 
     def wait_for(
@@ -107,8 +114,9 @@ class PacedClock:
     def set_limit(self, hold: TimeHold, moment: float) -> None:
         """Take a part's word; see `TimeHold`."""
         with self._passing:
+            if hold.limit <= self._now + LEAST:  # another that is heard says nothing of this one
+                self._held_since = None
             hold.limit = moment
-            self._held_since = None
             self._passing.notify_all()
 
     # --- who lets it pass -------------------------------------------------------------------------

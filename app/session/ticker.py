@@ -150,7 +150,7 @@ class Ticker:
                 due = clock.now() + self._period
                 hold.until(due)
                 while not self._stop.is_set() and clock.now() < due - 1e-9:
-                    clock.sleep(due - clock.now())
+                    clock.sleep_until(due)
         finally:
             hold.release()
 

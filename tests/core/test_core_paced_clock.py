@@ -152,6 +152,30 @@ def test_who_holds_time_and_is_never_heard_again_is_waited_for_no_more(
     assert clock.now() > 5.0
 
 
+def test_a_part_that_hangs_is_given_up_though_another_is_heard_all_the_while(
+    clock: PacedClock, wall: Wall, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.core.paced_clock.PATIENCE", 0.05)
+    clock.hold("trainer").until(5.0)
+    hand = clock.hold("hand")
+    wall.time += 0.02
+    end = time.monotonic() + 2.0
+    while clock.now() == 5.0 and time.monotonic() < end:
+        hand.until(clock.now() + 0.1)
+        passed(clock)
+    assert clock.now() > 5.0
+
+
+def test_who_sleeps_until_a_moment_that_has_come_meanwhile_does_not_wait(
+    clock: PacedClock, wall: Wall
+) -> None:
+    wall.time += 0.05
+    passed(clock)
+    began = time.monotonic()
+    clock.sleep_until(5.02)
+    assert time.monotonic() - began < 1.0
+
+
 @pytest.mark.parametrize("times", [2, 20])
 def test_a_wall_that_runs_faster_is_a_computer_that_is_slower(times: int) -> None:
     wall = Wall()

@@ -4,6 +4,7 @@ import threading
 import time
 from itertools import pairwise
 
+from app.core.paced_clock import PacedClock
 from app.session.samples import SAMPLE_PERIOD
 from app.session.ticker import Ticker
 from app.session.trainer import TICK_PERIOD
@@ -45,3 +46,38 @@ def test_a_late_look_is_not_followed_by_one_that_the_record_would_leave_out():
     apart = [later - earlier for earlier, later in pairwise(times)]
     assert min(apart) > SAMPLE_PERIOD, "a pose that was told is recorded"
     assert max(apart) > 1.5 * TICK_PERIOD, "one was late"
+
+
+class Switched(PacedClock):
+    """A clock whose loop lets all time pass that may before a sleeper has begun to sleep."""
+
+    def _pass(self):
+        while (may := self.grant(1e-3)) > 0.0:
+            self.advance(may)
+
+    def sleep(self, duration):
+        self._pass()
+        super().sleep(duration)
+
+    def sleep_until(self, moment):
+        self._pass()
+        super().sleep_until(moment)
+
+
+def test_time_that_comes_to_the_next_look_before_the_ticker_sleeps_does_not_stand_for_ever():
+    """The ticker holds time until its next look: if it slept past that, both would wait."""
+    clock, looks, enough = Switched(), [], threading.Event()
+    clock.start()
+
+    def look():
+        looks.append(clock.now())
+        time.sleep(2.0 * TICK_PERIOD)  # the wall is ahead: all that may pass does so at once
+        if len(looks) == 5:
+            enough.set()
+
+    ticker = Ticker(look, TICK_PERIOD, lambda error: None, clock)
+    ticker.open()
+    came = enough.wait(5.0)
+    clock.stop()
+    ticker.close()
+    assert came

@@ -72,7 +72,7 @@ class FolderCamera(Camera):
                 )
             )
         time = number / self._rate
-        self._clock.sleep(time - self._clock.now())
+        self._clock.sleep_until(time)
         self._last = number
         return CameraFrame(
             read_picture(self._files[(number - self._first) % len(self._files)]), time
@@ -230,7 +230,7 @@ class VideoCamera(Camera):
         if not good or image is None:
             raise CameraError(sentence("a picture of {path} is damaged", path=self.path))
         due = self._start + time
-        self._clock.sleep(due - self._clock.now())
+        self._clock.sleep_until(due)
         return CameraFrame(np.array(image), due)
 
     def close(self) -> None:

@@ -475,13 +475,13 @@ class SimulatedCamera(Camera):
         number = max(self._last + 1, self._due())
         time = self.skew + number / self._rate
         ahead = self.latency if isinstance(self._clock, PacedClock) else 0.0
-        self._clock.sleep(time + self.latency - ahead - self._clock.now())
+        self._clock.sleep_until(time + self.latency - ahead)
         self._last = number
         image = self._renderer.render(self.scene(time))
         for effect, parameters in self._chain:
             image = effect(image, parameters, self._rng)
         if ahead > 0.0:
-            self._clock.sleep(time + ahead - self._clock.now())
+            self._clock.sleep_until(time + ahead)
         return CameraFrame(image, time)
 
     def close(self) -> None:

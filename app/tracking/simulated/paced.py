@@ -43,7 +43,7 @@ class PacedFixes:
 
     def wait(self, fix: NeedleFix) -> None:
         """Wait until a fix is due."""
-        self._clock.sleep(fix.time + self._delay - self._clock.now())
+        self._clock.sleep_until(fix.time + self._delay)
 
     def go_on(self, fix: NeedleFix) -> None:
         """Let time go on until the fix after this one is due."""
