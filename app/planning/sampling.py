@@ -22,6 +22,7 @@ from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.imaging.field.tissue_words import tissue_words
 from app.imaging.field.walking import Crossed, holding, walk
 from app.planning.errors import PlanError
+from app.planning.tissues import SMALL_VESSELS
 
 ALONG_MM: Final = 0.25
 """A sample is looked at in discs of this thickness."""
@@ -215,14 +216,11 @@ def on_the_throw(
         inside = inside or part.code in held
         if part.code in held or part.length_mm < GRAZED_MM:
             continue
-        if tissue.kind in _HARMED and tissue.name not in _SMALL:
+        if tissue.kind in _HARMED and tissue.name not in SMALL_VESSELS:
             found.append(_ahead(field, part))
         elif inside and tissue.kind is not TissueKind.VESSEL:
             found.append(_ahead(field, part, leaves=True))
     return tuple(found)
-
-
-_SMALL: Final = frozenset({"small vessel", "lung vessel"})  # as `scoring.met.SMALL_VESSELS`
 
 
 def _ahead(field: TissueField, part: Crossed, leaves: bool = False) -> Ahead:

@@ -14,6 +14,7 @@ from typing import Any, Final
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
 from app.imaging.field.tissue_words import tissue_words
+from app.planning.tissues import SMALL_VESSELS
 from app.scoring.errors import TrajectoryError
 
 FORBIDDEN: Final = ("bone", "vessel", "gut", "heart", "lung")
@@ -31,9 +32,6 @@ LEAST_CONFIDENCE: Final = 0.5
 
 LEAST_N: Final = 0.05
 """A smaller force along the needle is none that is told in words [N]."""
-
-SMALL_VESSELS: Final = frozenset({"small vessel", "lung vessel"})
-"""Names of vessels that a needle may meet; every other vessel is great."""
 
 BY_TIP, BY_SHAFT = "tip", "shaft"
 

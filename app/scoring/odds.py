@@ -13,7 +13,8 @@ from typing import Any, Final
 
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
-from app.scoring.met import SMALL_VESSELS, Met
+from app.planning.tissues import SMALL_VESSELS
+from app.scoring.met import Met
 from app.scoring.pleura import (
     aerated_mm,
     crossings,

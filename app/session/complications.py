@@ -226,7 +226,8 @@ class Complications:
         self._case, self._attempt = case, attempt
         self._lots = Lots.of(case.seed, attempt)
         self._watch = LungWatch(case.field, case.placed.plan.target_mm)
-        self._clock, self._seen = 0.0, None
+        self._clock = 0.0
+        self._seen: float | None = None
         self._facts: Facts | None = None
         self._probability = 0.0
         self._thick_in = self._oxygen = False
@@ -239,8 +240,6 @@ class Complications:
         self._shown: FloatArray | None = None
         self._aspirations = 0
         self._looked: tuple[FloatArray, float] | None = None
-
-    _seen: float | None
 
     @property
     def state(self) -> ComplicationsState:
@@ -303,7 +302,7 @@ class Complications:
         return self._happening(words, "notice", is_told=True, there=there)
 
     def answer(self, answer: Reaction) -> Happening:
-        """Reaction what there is, or nothing."""
+        """Answer what there is, or nothing."""
         row, verdict, kinds = self._judge(answer)
         share, rim_mm = self.share, self.rim_mm
         words = sentence(

@@ -18,15 +18,12 @@ from app.imaging.field.tissue_field import UNKNOWN, TissueField, TissueKind
 from app.imaging.field.walking import holding
 from app.planning.errors import PlanError
 from app.planning.sampling import lesion_code
-from app.scoring.met import SMALL_VESSELS
+from app.planning.tissues import SMALL_VESSELS
+from app.session.tissues import BACK_MM, GAP_MM
 
 STEP_MM: Final = 0.5
 """Between two looks the way is followed in steps of this."""
 
-BACK_MM: Final = 2.0
-"""As `session.tissues`: drawn back so far, a new way begins, or the lung was left."""
-
-GAP_MM: Final = 0.5
 TOUCHES_MM: Final = 2.0
 """A lesion so near to what is no lung has contact to the pleura."""
 

@@ -23,8 +23,9 @@ from app.core.units import MILLIMETRE
 from app.imaging.field.tissue_field import TissueField, TissueKind
 from app.imaging.field.walking import Crossed, directions, holding, joined, walk
 from app.planning.placement import PlacedPlan
+from app.planning.tissues import SMALL_VESSELS
 from app.scoring.errors import TrajectoryError
-from app.scoring.met import BY_SHAFT, BY_TIP, SMALL_VESSELS, Met
+from app.scoring.met import BY_SHAFT, BY_TIP, Met
 from app.session.risks import different_needles, needles_seen
 from app.session.samples import Samples
 from app.session.tissue_force import FeltAlong

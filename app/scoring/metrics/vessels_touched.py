@@ -3,7 +3,7 @@
 from typing import Any, Final
 
 from app.imaging.field.tissue_field import TissueKind
-from app.scoring.met import SMALL_VESSELS
+from app.planning.tissues import SMALL_VESSELS
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
