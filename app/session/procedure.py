@@ -406,10 +406,7 @@ def _require_place(step: Step, look: NeedleNow | None) -> None:
     outside = look.depth <= 0.0
     if step is Step.TAKE_NEEDLE and not outside:
         raise ProcedureNotPossibleError(
-            sentence(
-                "the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first",
-                depth=look.depth / MILLIMETRE,
-            )
+            sentence("the needle for local anaesthetic is still in the body: draw it out first")
         )
     if step is not Step.TAKE_NEEDLE and outside:
         raise ProcedureNotPossibleError(sentence("the tip is outside the skin: insert it first"))

@@ -272,7 +272,18 @@ class StepKind(StrEnum):
     TOUCH = "touch"
     STAY = "stay"
     PROCEDURE = "procedure"
+    AWAY = "away"
     FINISH = "finish"
+
+
+def tip_inside(snapshot: Snapshot, live: bool = True) -> bool | None:
+    """Return whether the tip is in the body; None where the needle may not be told of.
+
+    Args:
+        snapshot: as it may be shown.
+        live: whether the needle may be told of; else the snapshot has none.
+    """
+    return snapshot.pose.measured and snapshot.pose.depth > 0.0 if live else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -283,12 +294,13 @@ class NextStep:
         kind: what.
         towards: sides of the patient to which the hub goes, the larger part first, of `LRAPSI`.
         distance: along the needle that is left, or too much [m].
+        left: until the student is back in the room [s].
         across: way of the tip to a target that is to be touched, across the path to it [m]; of a
             needle to be tilted, how far from the target its line passes.
         touch: how the attempt stands with its targets; None where there is nothing to touch.
         pause: what the attempt waits for that the student cannot mend with the needle; else None.
         procedure: how it stands with the steps of the procedure, where one of them is next.
-        inside: whether the tip is in the body then.
+        inside: whether the tip is in the body then; None where nobody is told.
     """
 
     kind: StepKind
@@ -298,7 +310,8 @@ class NextStep:
     touch: TouchState | None = None
     pause: PauseCause | None = None
     procedure: ProcedureState | None = None
-    inside: bool = False
+    inside: bool | None = False
+    left: float = 0.0
 
 
 ORDERS: Final = frozenset(
@@ -356,9 +369,12 @@ class NextSteps:
         step = self._step(snapshot, live)
         if snapshot.procedure is not None:
             told = step if orders else NextStep(StepKind.LOOK) if step.kind in ORDERS else step
-            step = self._in_procedure(told, snapshot, snapshot.procedure)
+            inside = tip_inside(snapshot, live)
+            step = self._in_procedure(told, snapshot, snapshot.procedure, inside)
         if not orders and step.kind in ORDERS:
             step = NextStep(StepKind.LOOK)
+        if snapshot.out_of_room is not None and step.kind in (*_DURING, StepKind.PROCEDURE):
+            step = NextStep(StepKind.AWAY, left=snapshot.out_of_room)
         self._last = step.kind
         return step
 
@@ -402,21 +418,25 @@ class NextSteps:
             return NextStep(StepKind.DEEPER, distance=offset.remaining)
         return NextStep(StepKind.FINISH if snapshot.state is State.HOLDING else StepKind.HOLD)
 
-    def _in_procedure(self, step: NextStep, snapshot: Snapshot, state: ProcedureState) -> NextStep:
-        """Say which step of the procedure is next, once the needle is where it belongs."""
+    def _in_procedure(
+        self, step: NextStep, snapshot: Snapshot, state: ProcedureState, inside: bool | None
+    ) -> NextStep:
+        """Say which step of the procedure is next, once the needle is where it belongs.
+
+        Where nobody is told where the needle is, the order of the steps is said all the same.
+        """
         if step.kind not in _DURING:
             return step
-        inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
         own = NextStep(StepKind.PROCEDURE, procedure=state, inside=inside)
         if state.ablation is not None and state.tool is ToolInHand.ELECTRODE:
             return _in_ablation(step, own, state.ablation)
         if state.tool is ToolInHand.ANAESTHETIC:
-            aims = step.kind in (StepKind.TILT, StepKind.LOOK, StepKind.SCAN) and not inside
+            aims = step.kind in (StepKind.TILT, StepKind.LOOK) and not inside
             return step if aims and not state.deposits else own
         if state.tool is not ToolInHand.STYLET or state.part.biopsy is None:
             return own if state.part.biopsy is not None else step
         if step.kind in (StepKind.LOOK, StepKind.SCAN):
-            return own if inside else step
+            return step if inside is False else own
         if step.kind in (StepKind.TILT, StepKind.INSERT, StepKind.FEEL):
             return step
         # The notch lies ahead of the tip: its middle goes to the target, not the tip.
@@ -470,7 +490,7 @@ def _in_ablation(step: NextStep, own: NextStep, ablation: AblationState) -> Next
     """Say what is next with electrodes: leave one, draw back for the next, ablate, end."""
     if ablation.reached is not None:
         return NextStep(StepKind.FINISH)
-    if ablation.all_placed:
+    if ablation.all_placed or own.inside is None:
         return own
     if own.inside and step.kind in (StepKind.HOLD, StepKind.FINISH, StepKind.LOOK):
         return own

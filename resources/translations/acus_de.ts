@@ -14401,6 +14401,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pause: Die Nadel schwingt in der simulierten Hand; es geht von selbst weiter.</translation>
         </message>
         <message>
+            <source>By the scans (S): {step}</source>
+            <translation type="unfinished">Nach den Scans (S): {step}</translation>
+        </message>
+        <message>
             <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
             <translation type="unfinished">Pause: Die simulierten Kameras sehen die Nadel dort nicht. Bewegen Sie sie ein wenig zurück.</translation>
         </message>
@@ -14445,8 +14449,16 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ziel {n} von {of}: {way}</translation>
         </message>
         <message>
+            <source>Push to its place, then leave electrode {n} (J)</source>
+            <translation type="unfinished">An ihren Platz schieben, dann Elektrode {n} dort lassen (J)</translation>
+        </message>
+        <message>
             <source>Draw the needle out of the skin, turn it to {n}</source>
             <translation>Nadel aus der Haut ziehen, zu {n} drehen</translation>
+        </message>
+        <message>
+            <source>Draw the needle out, then take the next one (J)</source>
+            <translation type="unfinished">Ziehen Sie die Nadel heraus und nehmen Sie die nächste (J)</translation>
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
@@ -23435,8 +23447,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>nicht ausgeführt: die Tiefe der Nadel wird jetzt nicht gemessen; lassen Sie beide Kameras den Marker sehen und wiederholen Sie es</translation>
         </message>
         <message>
-            <source>the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first</source>
-            <translation>die Nadel für das Lokalanästhetikum ist {depth:.0f} mm im Körper: ziehen Sie sie zuerst heraus</translation>
+            <source>the needle for local anaesthetic is still in the body: draw it out first</source>
+            <translation type="unfinished">die Nadel für das Lokalanästhetikum ist noch im Körper: ziehen Sie sie zuerst heraus</translation>
         </message>
         <message>
             <source>the tip is outside the skin: insert it first</source>

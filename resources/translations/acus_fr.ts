@@ -14401,6 +14401,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En pause : l’aiguille oscille dans la main simulée ; l’essai reprend de lui-même.</translation>
         </message>
         <message>
+            <source>By the scans (S): {step}</source>
+            <translation type="unfinished">D’après les scans (S) : {step}</translation>
+        </message>
+        <message>
             <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
             <translation type="unfinished">En pause : les caméras simulées ne voient pas l’aiguille à cet endroit. Ramenez-la un peu en arrière.</translation>
         </message>
@@ -14445,8 +14449,16 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Cible {n} sur {of} : {way}</translation>
         </message>
         <message>
+            <source>Push to its place, then leave electrode {n} (J)</source>
+            <translation type="unfinished">Poussez jusqu’à sa place, puis laissez l’électrode {n} (J)</translation>
+        </message>
+        <message>
             <source>Draw the needle out of the skin, turn it to {n}</source>
             <translation>Retirez l’aiguille de la peau, tournez-la vers {n}</translation>
+        </message>
+        <message>
+            <source>Draw the needle out, then take the next one (J)</source>
+            <translation type="unfinished">Retirez l’aiguille, puis prenez la suivante (J)</translation>
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
@@ -23435,8 +23447,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>non fait : la profondeur de l'aiguille n'est pas mesurée ; montrez le marqueur aux deux caméras et recommencez</translation>
         </message>
         <message>
-            <source>the needle for local anaesthetic is {depth:.0f} mm in the body: draw it out first</source>
-            <translation>l'aiguille d'anesthésie locale est à {depth:.0f} mm dans le corps : retirez-la d'abord</translation>
+            <source>the needle for local anaesthetic is still in the body: draw it out first</source>
+            <translation type="unfinished">l’aiguille d’anesthésie locale est encore dans le corps : retirez-la d’abord</translation>
         </message>
         <message>
             <source>the tip is outside the skin: insert it first</source>

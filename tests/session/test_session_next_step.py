@@ -9,11 +9,13 @@ import pytest
 from app.core import state_vector as sv
 from app.core.rotation import rotation_exp
 from app.exercises.library import load_exercise
+from app.exercises.procedure import AnaestheticPart, BiopsyPart, ProcedurePart
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.off_path import offset
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.session.machine import State
+from app.session.procedure import ProcedureState, ToolInHand
 from app.session.snapshot import NextSteps, StepKind
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
@@ -39,6 +41,7 @@ class Moment:
     pause: object = None
     ready: bool = False
     simulated: bool = False
+    out_of_room: float | None = None
 
 
 def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=True, p_target=None):
@@ -254,3 +257,28 @@ def test_a_tool_is_led_to_its_target_by_where_the_tip_goes_and_how_deep():
     assert step(second, touched=0).kind is StepKind.TOUCH  # the wrong one
     assert step(placed.p_entry, depth=-0.01).kind is StepKind.INSERT
     assert step(second, touched=len(task)).kind is StepKind.FINISH
+
+
+BIOPSY = ProcedurePart(anaesthetic=AnaestheticPart(), biopsy=BiopsyPart())
+
+
+@pytest.mark.parametrize("tool", [tool for tool in ToolInHand if tool is not ToolInHand.ELECTRODE])
+def test_where_control_scans_guide_the_steps_of_the_procedure_are_said_all_the_same(tool):
+    plan = placed()
+    now = replace(moment(plan, 0.0, valid=False), procedure=ProcedureState(BIOPSY, tool))
+    step = steps(plan).of(now, live=False)
+    assert step.kind is StepKind.PROCEDURE
+    assert step.procedure.tool is tool
+    assert step.inside is None
+
+
+@pytest.mark.parametrize("live", [True, False])
+def test_who_is_out_of_the_room_for_a_scan_is_told_for_how_long(live):
+    plan = placed()
+    procedure = ProcedureState(BIOPSY, ToolInHand.STYLET)
+    for part in (None, procedure):
+        now = replace(moment(plan, 0.03), procedure=part, out_of_room=12.0)
+        step = steps(plan).of(now, live=live)
+        assert (step.kind, step.left) == (StepKind.AWAY, 12.0)
+    ready = replace(now, state=State.READY)
+    assert steps(plan).of(ready, live=live).kind is StepKind.START

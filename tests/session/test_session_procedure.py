@@ -97,7 +97,7 @@ def test_without_local_anaesthetic_the_outer_needle_is_held_from_the_beginning()
     ("steps", "refused", "depth_mm", "words"),
     [
         ((), Step.FIRE, 16.0, "held is the needle for local anaesthetic"),
-        ((), Step.TAKE_NEEDLE, 16.0, "16 mm in the body: draw it out first"),
+        ((), Step.TAKE_NEEDLE, 16.0, "still in the body: draw it out first"),
         ((), Step.INJECT, -2.0, "outside the skin: insert it first"),
         ((Step.INJECT, Step.INJECT), Step.INJECT, 16.0, "empty after 2 times"),
         ((Step.TAKE_NEEDLE,), Step.FIRE, 20.0, "held is the outer needle with its stylet"),

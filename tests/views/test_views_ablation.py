@@ -101,6 +101,20 @@ def test_the_panel_leads_through_electrodes_and_generator_by_key_and_mouse(appli
     panel.close()
 
 
+def test_where_control_scans_guide_electrodes_can_be_left_by_the_key(application):
+    state = begin(liver())
+    panel, asked = AblationPanel(), []
+    panel.asked.connect(lambda *step: asked.append(step[0]))
+    for _ in state.ablation.plans:
+        panel.show_ablation(state, True, inside=None)
+        panel.next.click()
+        plan, field = state.ablation.aim, state.ablation.lesion.field
+        state, _, _ = perform(state, Step.PLACE_ELECTRODE, needle(plan), placed(), field)
+    panel.show_ablation(state, True, inside=None)
+    panel.next.click()
+    assert asked == [Step.PLACE_ELECTRODE] * len(state.ablation.plans) + [Step.ABLATE]
+
+
 def test_what_is_told_names_vessels_and_zones_that_were_measured_without_blood():
     state, _ = done()
     said = "\n".join(results(AblationShown.of_state(state.ablation)))

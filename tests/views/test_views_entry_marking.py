@@ -6,6 +6,7 @@ from window_rig import plan
 
 from app.exercises.procedure import GridPart, ProcedurePart
 from app.imaging.skin_grid import GridPlace
+from app.planning.entry_mark import needle_angles
 from app.views.exercise.feature import ExerciseFeature
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool
@@ -52,6 +53,10 @@ def test_what_is_marked_becomes_the_entry_and_is_compared_with_the_planned_one(g
     np.testing.assert_allclose(entry, mark.marked_mm, atol=1.5)
     assert "Marked at table" in panel.words.text()
     assert "Needle:" in panel.words.text()
+    path = needle_angles(window.editors.plan.edit.draft.plan(), marking._grid.spec.up, 0.0)
+    assert f"{path.cranio_caudal_deg:+.1f}° out" in panel.words.text()  # of the path that is flown
+    was = needle_angles(marking._planned, marking._grid.spec.up, 0.0)
+    assert abs(was.cranio_caudal_deg - path.cranio_caudal_deg) > 1.0
     again = marking._planned.entry_mm
     np.testing.assert_allclose(again, planned)  # the mark is no new plan
 
@@ -106,8 +111,13 @@ def test_the_needle_points_as_it_is_dialled(gridded, settle) -> None:
     window = gridded
     assert settle(lambda: window.conductor.controller.run is not None)
     controller, panel = window.conductor.controller, window.workspace.exercise_panel.entry
+    assert panel.dial.isHidden()
+    assert not panel.mark.isHidden()
     controller.begin("s")
     controller.poll()
+    panel.set_locked(True)
+    assert not panel.dial.isHidden()
+    assert panel.mark.isHidden()
     panel.plane.setValue(8.0)
     panel.head.setValue(-3.0)
     before = window.workspace.bullseye.hand

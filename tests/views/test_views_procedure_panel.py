@@ -121,3 +121,29 @@ def test_every_tool_has_its_order_on_the_line_over_the_views() -> None:
         step = NextStep(StepKind.PROCEDURE, procedure=given, inside=inside)
         words.add(step_words(step, True))
     assert len(words) == len(TOOLS) + 2
+
+
+def test_where_control_scans_guide_every_step_can_be_done_by_the_key(panel: ProcedurePanel) -> None:
+    tools = (
+        state(ToolInHand.ANAESTHETIC),
+        state(ToolInHand.ANAESTHETIC, deposits=1),
+        state(ToolInHand.STYLET),
+        state(ToolInHand.OPEN),
+    )
+    for shown in tools:
+        panel.show_procedure(shown, True, None)
+        assert panel.next.isEnabled()
+        panel.next.click()
+    steps = [Step.INJECT, Step.TAKE_NEEDLE, Step.STYLET_OUT, Step.GUN_IN]
+    assert [one[0] for one in panel.seen] == steps  # type: ignore[attr-defined]
+
+
+def test_where_control_scans_guide_every_order_to_move_names_their_key() -> None:
+    for tool in (ToolInHand.ANAESTHETIC, ToolInHand.STYLET):
+        for deposits in (0, 1):
+            step = NextStep(
+                StepKind.PROCEDURE, procedure=state(tool, deposits=deposits), inside=None
+            )
+            words = step_words(step, True)
+            assert words.startswith("By the scans (S): ")
+            assert "J" in words or "take the next one" in words

@@ -56,14 +56,14 @@ class AblationPanel(QWidget):
         self._key.setParent(page)
 
     def show_ablation(
-        self, state: ProcedureState | None, commands: bool, inside: bool = False
+        self, state: ProcedureState | None, commands: bool, inside: bool | None = False
     ) -> None:
         """Show how an attempt stands with its electrodes, or nothing.
 
         Args:
             state: how it stands; None without electrodes.
             commands: whether steps can be done now.
-            inside: whether the tip is in the body.
+            inside: whether the tip is in the body; None where nobody is told.
         """
         self.setVisible(state is not None)
         now = state, commands, inside
@@ -95,16 +95,18 @@ class AblationPanel(QWidget):
         )
 
     def _show(
-        self, state: ProcedureState, ablation: AblationState, commands: bool, inside: bool
+        self, state: ProcedureState, ablation: AblationState, commands: bool, inside: bool | None
     ) -> None:
         if state.tool is ToolInHand.ANAESTHETIC:
             self.held.setText(tr("Held: {tool}", tool=translated(state.words)))
         else:
             self.held.setText(_standing(ablation))
         possible = state.possible if commands else ()
+        # Where nobody is told, the key does what is usual: one deposit, then the electrode.
+        injects = not state.deposits if inside is None else inside
         wanted = (
-            Step.INJECT if inside else Step.TAKE_NEEDLE,
-            Step.PLACE_ELECTRODE if inside else None,
+            Step.INJECT if injects else Step.TAKE_NEEDLE,
+            None if inside is False else Step.PLACE_ELECTRODE,
             Step.ABLATE,
         )
         self._step = next((step for step in wanted if step in possible), None)

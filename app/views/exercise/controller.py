@@ -26,7 +26,7 @@ from app.session.pad.readings import hand_pose, needle_line
 from app.session.procedure import Step
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
-from app.session.snapshot import Snapshot
+from app.session.snapshot import Snapshot, tip_inside
 from app.session.trainer import Trainer
 from app.session.transitions import PauseCause
 from app.views.exercise.ablation_panel import of_electrodes
@@ -168,7 +168,7 @@ class ExerciseDisplay:
         views.panel.rail.breath.show_snapshot(snapshot)
         views.panel.bevel.show_roll(snapshot.roll, commands)
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
-        inside = snapshot.pose.measured and snapshot.pose.depth > 0.0
+        inside = tip_inside(snapshot, run.shown.live)
         acts = commands and snapshot.state not in (State.WITHDRAWING, State.PAUSED)
         views.panel.patient.show_patient(snapshot.complications, commands)
         electrodes, other = of_electrodes(snapshot.procedure)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QObject, QPointF, QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QLineF, QObject, QPointF, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QPushButton, QSpinBox, QWidget
 
@@ -42,6 +42,9 @@ WIRE = Mark("#f2c14e", width=1.5)
 LASER = Mark("#e0523f", width=1.5)
 DOT_MM = 1.0
 NUMBER_PX = QPointF(-4.0, -7.0)
+APART_PX = 20.0
+"""Numbers nearer to each other than this would run into one; each that fits is written."""
+
 SAME_MM = 1.5
 """An entry so near to the marked one is it: a mark is moved onto the skin next to it."""
 
@@ -66,9 +69,11 @@ class EntryMarkPanel(QWidget):
         self.mark = QPushButton(tr("Mark the entry"), self)
         self.plane, self.head = QDoubleSpinBox(self), QDoubleSpinBox(self)
         self.dial = QPushButton(tr("Point the needle"), self)
-        self.words, self._names = PlainLabel(self), list[PlainLabel]()
+        self.words = PlainLabel(self)
+        self._names, self._angle_names = list[PlainLabel](), list[PlainLabel]()
         self._prepare()
         self._lay_out()
+        self.set_locked(False)
         self.hide()
 
     def set_spec(self, spec: GridSpec | None) -> None:
@@ -84,9 +89,11 @@ class EntryMarkPanel(QWidget):
             self.offset.setValue(0.0)
 
     def set_locked(self, locked: bool) -> None:
-        """Offer no mark during an attempt; what is said stays."""
+        """Offer the mark before an attempt, the needle's angles in it; what is said stays."""
         for widget in (*self._names, self.table, self.line, self.offset, self.mark):
             widget.setVisible(not locked)
+        for widget in (*self._angle_names, self.plane, self.head, self.dial):
+            widget.setVisible(locked)
 
     @property
     def angles(self) -> NeedleAngles:
@@ -171,7 +178,8 @@ class EntryMarkPanel(QWidget):
         for row, (name, widget) in enumerate(
             ((tr("In the slice"), self.plane), (tr("Out of it"), self.head)), 6
         ):
-            grid.addWidget(PlainLabel(name, self), row, 0)
+            self._angle_names.append(PlainLabel(name, self))
+            grid.addWidget(self._angle_names[-1], row, 0)
             grid.addWidget(widget, row, 1)
         grid.addWidget(self.dial, 8, 0, 1, 2)
         grid.setColumnStretch(1, 1)
@@ -279,10 +287,11 @@ class EntryMarking(QObject):
         self._panel.words.setText("" if grid is None else self._words())
 
     def _words(self) -> str:
-        """Say the angles of the planned path, the room in the bore, and what was marked."""
-        plan, patient = self._planned, self._patient()
-        if plan is None or self._grid is None or patient is None:
+        """Say the angles of the path from the entry, the room in the bore, and what was marked."""
+        draft, patient = self._editor.edit.draft, self._patient()
+        if self._planned is None or self._grid is None or patient is None:
             return tr("Plan the entry on the CT first")
+        plan = draft.plan() if draft.complete else self._planned
         tilt, middle = self._tilt_deg(), middle_of(patient.volume)
         angles = needle_angles(plan, self._grid.spec.up, tilt)
         order = ScanOrder(self._panel.table.value(), tilt_deg=tilt, pivot_mm=float(middle[1]))
@@ -290,8 +299,8 @@ class EntryMarking(QObject):
             tr(
                 "Needle: {plane:+.1f}° in the slice (+ towards higher numbers), {head:+.1f}° out "
                 "of it (+ towards the head)",
-                plane=angles.in_plane_deg,
-                head=angles.cranio_caudal_deg,
+                plane=round(angles.in_plane_deg, 1) + 0.0,  # no −0.0
+                head=round(angles.cranio_caudal_deg, 1) + 0.0,
             ),
             tr(
                 "Room between hub and bore: {mm:.0f} mm",
@@ -385,8 +394,12 @@ class _GridShape(Shape):
         to_pixels = painter.transform()
         painter.save()
         painter.resetTransform()
+        last: QPointF | None = None
         for at, number in self.dots:
-            painter.drawText(to_pixels.map(at) + NUMBER_PX, number)
+            place = to_pixels.map(at)
+            if last is None or QLineF(last, place).length() >= APART_PX:
+                painter.drawText(place + NUMBER_PX, number)
+                last = place
         painter.restore()
         if self.laser is not None:
             painter.setPen(LASER.pen())

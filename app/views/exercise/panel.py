@@ -418,6 +418,7 @@ class AttemptTools(QWidget):
             self.scan,
         ):
             column.addWidget(widget)
+        self._column = column
 
     def set_narrow(self, narrow: bool) -> None:
         """Suit a rail, or a panel of the usual width."""
@@ -425,6 +426,9 @@ class AttemptTools(QWidget):
         self.breath.set_narrow(narrow)
         self.procedure.set_narrow(narrow)
         self.scan.set_narrow(narrow)
+        # Before the attempt the entry is marked first; in it what is pressed stands first.
+        before = self._column.count() - 1 if narrow else self._column.indexOf(self.ablation) + 1
+        self._column.insertWidget(before, self.entry)
         self.bevel.setWordWrap(narrow)
 
 

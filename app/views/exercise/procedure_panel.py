@@ -45,7 +45,7 @@ class ProcedurePanel(QWidget):
         super().__init__(parent)
         self._state: ProcedureState | None = None
         self._step: Step | None = None
-        self._shown: tuple[ProcedureState | None, bool, bool] = None, False, False
+        self._shown: tuple[ProcedureState | None, bool, bool | None] = None, False, False
         self.held, self.results = PlainLabel(self), PlainLabel(self)
         self.next, self.fire = _button(), _button()
         self.throw, self.notch = QComboBox(self), QComboBox(self)
@@ -60,14 +60,14 @@ class ProcedurePanel(QWidget):
             shortcut.setParent(page)
 
     def show_procedure(
-        self, state: ProcedureState | None, commands: bool, inside: bool = False
+        self, state: ProcedureState | None, commands: bool, inside: bool | None = False
     ) -> None:
         """Show how an attempt stands with its steps, or nothing.
 
         Args:
             state: how it stands; None without steps.
             commands: whether steps can be done now.
-            inside: whether the tip is in the body.
+            inside: whether the tip is in the body; None where nobody is told.
         """
         self.setVisible(state is not None)
         now = state, commands, inside
@@ -96,11 +96,13 @@ class ProcedurePanel(QWidget):
         self._settings.setVisible(biopsy is not None)
         self.fire.setVisible(biopsy is not None)
 
-    def _show(self, state: ProcedureState, commands: bool, inside: bool) -> None:
+    def _show(self, state: ProcedureState, commands: bool, inside: bool | None) -> None:
         self.held.setText(tr("Held: {tool}", tool=translated(state.words)))
         possible = set(state.possible) if commands else set()
         # After its throw the gun comes out; after a sample the stylet goes back before the next.
-        possible.discard(Step.INJECT if not inside else Step.TAKE_NEEDLE)
+        # Where nobody is told, the key does what is usual: one deposit, then the outer needle.
+        injects = not state.deposits if inside is None else inside
+        possible.discard(Step.TAKE_NEEDLE if injects else Step.INJECT)
         if not state.deposits:  # whoever presses the key at once has not begun yet
             possible.discard(Step.TAKE_NEEDLE)
         order = [step for step in NEXT if step in possible]
@@ -305,10 +307,13 @@ class ComplicationPanel(QWidget):
         self.vitals.setWordWrap(True)
         self.given.setWordWrap(True)
         self.vitals.setToolTip(tr("What the monitor shows, and what the patient says"))
-        self.notice.setText(tr("Something is wrong (Shift+J)"))
-        self.notice.setToolTip(literal(tr("Say it as soon as you see it: the time counts")))
-        self.answer.setText(tr("Do this (Ctrl+Shift+J)"))
-        self.answer.setToolTip(literal(tr("Do what is chosen here")))
+        # A rail has no room for the keys: they stand in the tips.
+        wrong, answer = tr("Something is wrong (Shift+J)"), tr("Do this (Ctrl+Shift+J)")
+        self.notice.setText(wrong)
+        hint = tr("Say it as soon as you see it: the time counts")
+        self.notice.setToolTip(literal(f"{wrong}\n{hint}"))
+        self.answer.setText(answer)
+        self.answer.setToolTip(literal(f"{answer}\n{tr('Do what is chosen here')}"))
         self.choice.setAccessibleName(tr("What is to be done"))
         self.choice.setToolTip(tr("What is to be done about a complication, by its size"))
         self.choice.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -319,6 +324,9 @@ class ComplicationPanel(QWidget):
         self.choice.setMinimumContentsLength(8)
         for answer in Reaction:
             self.choice.addItem(translated(ANSWER_WORDS[answer]), answer)
+        self.choice.currentTextChanged.connect(lambda words: self.choice.setToolTip(literal(words)))
+        widest = self.choice.view().sizeHintForColumn(0)
+        self.choice.view().setMinimumWidth(widest + 2 * theme.SPACING)
         self.notice.clicked.connect(self.noticed)
         self.answer.clicked.connect(lambda: self.answered.emit(self.choice.currentData()))
         for key, button in (("Shift+J", self.notice), ("Ctrl+Shift+J", self.answer)):

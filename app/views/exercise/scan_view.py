@@ -170,6 +170,7 @@ class ScanPanel(QWidget):
     def _prepare(self) -> None:
         self.table.setRange(-FARTHEST_MM, FARTHEST_MM)
         self.table.setDecimals(1)
+        self.table.setMinimumWidth(theme.px(84))  # its range would ask for more than any patient
         self.table.setSuffix(tr(" mm"))
         self.table.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)
         self.table.setToolTip(tr("Middle of the scan along the patient (z of LPS): + is headwards"))
@@ -209,7 +210,6 @@ class ScanPanel(QWidget):
         self._table_row.setParent(None)
         grid.addLayout(self._table_row, *((2, 0, 1, 3) if narrow else (1, 1, 1, 1)))
         grid.addWidget(self.here, *((1, 1, 1, 2) if narrow else (1, 2, 1, 1)))
-        grid.addWidget(self.range, *((4, 0, 1, 3) if narrow else (3, 2, 1, 1)))
         for label in (self.range, self.count):
             label.setWordWrap(narrow)
 
@@ -226,7 +226,8 @@ class ScanPanel(QWidget):
         grid.addWidget(title, 0, 0, 1, 3)
         grid.addWidget(PlainLabel(tr("Table"), self), 1, 0)
         grid.addWidget(PlainLabel(tr("Slices"), self), 3, 0)
-        grid.addWidget(self.slices, 3, 1)
+        grid.addWidget(self.slices, 3, 1, 1, 2)
+        grid.addWidget(self.range, 4, 0, 1, 3)
         grid.addWidget(self.choices, 5, 0, 1, 3)
         grid.addWidget(self.count, 6, 0, 1, 3)
         grid.addWidget(self.progress, 7, 0, 1, 3)

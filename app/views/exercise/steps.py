@@ -39,7 +39,9 @@ def amount(value: float) -> str:
     return number(value, ".0f") if value >= 0.95 else number(max(value, 0.1), ".1f")
 
 
-ASIDE: Final = (StepKind.START, StepKind.WITHDRAW, StepKind.MOVE, StepKind.WAIT)
+ASIDE: Final = frozenset(
+    {StepKind.START, StepKind.WITHDRAW, StepKind.MOVE, StepKind.WAIT, StepKind.AWAY}
+)
 """What comes before the attempt's own steps, or stops them: no breath is held for it."""
 
 
@@ -55,7 +57,9 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
     if step.touch is not None:
         return touch_words(step, step.touch)
     if step.procedure is not None:
-        return procedure_words(step.procedure, step.inside)
+        words = procedure_words(step.procedure, step.inside)
+        blind = step.inside is None and step.procedure.tool in _MOVED
+        return tr("By the scans (S): {step}", step=words) if blind else words
     mm = step.distance / MILLIMETRE
     inwards = tr(" (wheel away from you)") if by_mouse else ""
     outwards = tr(" (wheel towards you)") if by_mouse else ""
@@ -79,6 +83,7 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
         StepKind.MOVE: tr("Ready: the clock starts when you move"),
         StepKind.SEE: tr("Let both cameras see the marker"),
         StepKind.WAIT: _pause_words(step.pause),
+        StepKind.AWAY: tr("Out of the room: {s:.0f} s", s=step.left),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
         StepKind.LOOK: tr("Steer by the CT: S takes a scan, Enter ends the attempt"),
         StepKind.TILT: tilt,
@@ -163,20 +168,28 @@ def touch_words(step: NextStep, touch: TouchState) -> str:
     return tr("Target {n} of {of}: {way}", n=number, of=of, way=way)
 
 
-def procedure_words(state: ProcedureState, inside: bool) -> str:
+_MOVED: Final = (ToolInHand.ANAESTHETIC, ToolInHand.STYLET, ToolInHand.ELECTRODE)
+"""What is moved before its step can be done."""
+
+
+def procedure_words(state: ProcedureState, inside: bool | None) -> str:
     """Say which step of a procedure is next.
 
     Args:
         state: how the attempt stands with them.
-        inside: whether the tip is in the body.
+        inside: whether the tip is in the body; None where nobody is told.
     """
     if state.ablation is not None and state.tool is ToolInHand.ELECTRODE:
         if state.ablation.all_placed:
             return tr("Start the generator (J)")
+        if inside is None:
+            return tr("Push to its place, then leave electrode {n} (J)", n=state.ablation.number)
         if not inside:
             return tr("Draw the needle out of the skin, turn it to {n}", n=state.ablation.number)
         return tr("Leave electrode {n} here (J)", n=state.ablation.number)
     if state.tool is ToolInHand.ANAESTHETIC and state.deposits:
+        if inside is None:
+            return tr("Draw the needle out, then take the next one (J)")
         if inside:
             return tr("Draw the needle out, or give more (J)")
         return tr("Take the outer needle (J)")
