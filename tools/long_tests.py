@@ -1,6 +1,6 @@
 """Write docs/tests.md from the marks of the long tests: `python -m tools.long_tests`.
 
-A test that takes a second or more of a busy core is marked with its kind:
+A test that takes half a second or more of a quiet core is marked with its kind:
 
     @pytest.mark.long("journey")
 
@@ -36,9 +36,9 @@ HEAD = """# What is tested where
 | `make test-all` | both | an hour |
 | `make careless`, `soak`, `kills`, `twin`, `fuzz`, `looks`, `by-hand`, `bench` | each | yours |
 
-Continuous integration runs style, types and structure, `make test`, twenty minutes of the long
-tests, from another file on at each commit, and a minute of `kills`. Long tests that it did not
-reach are counted as skipped. Each half ends with its twenty slowest tests.
+Continuous integration runs style, types and structure, `make test`, of the long tests as many as an
+hour leaves time for, from another file on at each commit, and a minute of `kills`. Long tests that
+it did not reach are counted as skipped. Each half ends with its twenty slowest tests.
 
 Long tests are marked with their kind, in the test's own file:
 
