@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+from memory_link import MemoryLink
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -11,7 +12,6 @@ from app.core.compiled import stage
 from app.core.parameters import Stage
 from app.device.control import Loop, laws, machine_stages
 from app.device.links.link import Link
-from app.device.links.memory_link import MemoryLink
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.mechanisms.tensegrity.stages import WINCH

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from memory_link import MemoryLink
 
 from app.compose.desktop import DesktopRun
 from app.compose.emulator import Emulator, EmulatorSetup
@@ -20,7 +21,6 @@ from app.device.commissioning.results import RoutineName
 from app.device.errors import LinkError, RecordError
 from app.device.links import host_end as host
 from app.device.links.link import LinkStatus
-from app.device.links.memory_link import MemoryLink
 from app.device.links.serial_link import SerialLink
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan

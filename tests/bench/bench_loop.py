@@ -18,10 +18,11 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.device.control import Loop, Priority, VirtualFixture, machine_stages
+from app.device.control import Loop, Priority, machine_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
+from tests.virtual_fixture import VirtualFixture
 
 RATE_HZ = 1000.0
 RATIO = 10.0

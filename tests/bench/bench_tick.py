@@ -15,13 +15,14 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, angle_between
-from app.device.control import VirtualFixture, kernel, stage_cost
+from app.device.control import kernel, stage_cost
 from app.device.control.kinematics import Kinematics
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
 from app.mechanisms import pantograph
 from app.mechanisms.profile import load_profile
 from tests.bench import whole_tick
+from tests.virtual_fixture import VirtualFixture
 
 LIMIT_US = 1.0
 POSES = 200

@@ -3,12 +3,13 @@
 from typing import Any
 
 import numpy as np
+from virtual_fixture import VirtualFixture
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, Table, VirtualFixture, machine_stages
+from app.device.control import Loop, Table, machine_stages
 from app.device.links import Link
 from app.mechanisms.pantograph import ForceLaw, inverse
 from app.mechanisms.profile import load_profile

@@ -6,13 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 from device_rig import PROFILE, pose
+from virtual_fixture import VirtualFixture
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import SystemClock, VirtualClock
 from app.core.compiled import stage
 from app.device.checkpoint import Checkpoint
-from app.device.control import Host, Loop, Table, VirtualFixture, machine_stages
+from app.device.control import Host, Loop, Table, machine_stages
 from app.device.control.checkpoints import Rerun
 from app.device.errors import LoopError, RerunError
 from app.device.links import Link

@@ -19,10 +19,11 @@ from device.law_rig import (
 )
 from hypothesis import given
 from hypothesis import strategies as st
+from virtual_fixture import VirtualFixture
 
 from app.core import state_vector as sv
 from app.core.arrays import angle_between
-from app.device.control.laws.fixture import DEAD_ZONE, VirtualFixture, dial_gain
+from app.device.control.laws.fixture import DEAD_ZONE, dial_gain
 
 DOWN = (0.0, 0.0, -1.0)
 dials = st.floats(-1.0, 1.0)

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from device.wire_process import emulator, wait_for, want_torque
 from device.wire_rig import free_arms
+from memory_link import MemoryLink
 
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.device.control import Loop, Table
-from app.device.links.link import LinkStatus
-from app.device.links.memory_link import MemoryLink
+from app.device.links.link import BoardInfo, DeviceLink, LinkStatus
 from app.device.links.serial_link import SerialLink
-from app.device.links.simulated import SimulatedLink
+from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
 from app.simulation.plant import initial_plant
 
@@ -36,6 +36,26 @@ def processes(tmp_path_factory):
             return started[profile]
 
         yield get
+
+
+class SimulatedLink(DeviceLink):
+    """Encoders and plant of a simulated robot, in the shape of a real one's link."""
+
+    def __init__(self, profile, plant):
+        self.profile, self._link = profile, simulated_link(profile, plant)
+
+    def open(self):
+        """Nothing to connect."""
+
+    def close(self):
+        """Nothing to let go of."""
+
+    def stages(self):
+        return self._link
+
+    def info(self):
+        serial = f"simulated-{self.profile.name}"
+        return BoardInfo(self.profile.name, serial, "0", "memory", 1, simulated=True)
 
 
 class Robot:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from device.wire_rig import PROFILES, MemoryRig
+from memory_link import MemoryLink
 
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
@@ -11,7 +12,6 @@ from app.device.control.corrections import Corrections
 from app.device.errors import LinkError
 from app.device.links import board_layout as at
 from app.device.links.link import LinkStatus
-from app.device.links.memory_link import MemoryLink
 from app.mechanisms.profile import load_profile
 
 MINUTES = 10

@@ -1,13 +1,14 @@
 """A robot in memory under the whole control chain, on a virtual clock."""
 
 import numpy as np
+from memory_link import MemoryLink
+from virtual_fixture import VirtualFixture
 
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, VirtualFixture, machine_stages
+from app.device.control import Loop, machine_stages
 from app.device.links.link import Link
-from app.device.links.memory_link import MemoryLink
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
 

@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+from memory_link import MemoryLink
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.device.control import Loop, laws, machine_stages
-from app.device.links.memory_link import MemoryLink
 from app.device.links.simulated import simulated_link
 from app.mechanisms.dynamic_model import A1, A2, BASE, FX, FY, FZ, MODEL_SIZE
 from app.mechanisms.lever import axis_kernel, hub_velocity_kernel

@@ -6,12 +6,13 @@ import numpy as np
 from device.wire_rig import free_arms, joint_angles
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from virtual_fixture import VirtualFixture
 
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.core.parameters import Stage
-from app.device.control import Loop, VirtualFixture, machine_stages
+from app.device.control import Loop, machine_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from virtual_fixture import VirtualFixture
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, Table, VirtualFixture, machine_stages
+from app.device.control import Loop, Table, machine_stages
 from app.device.links import Link, LinkStatus
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from virtual_fixture import VirtualFixture
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
-from app.device.control.laws.fixture import VirtualFixture
 from app.device.control.table import machine_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile

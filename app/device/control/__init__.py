@@ -14,7 +14,6 @@ from app.device.state import DeviceState
 if TYPE_CHECKING:
     from app.device.control import laws
     from app.device.control.cost import stage_cost
-    from app.device.control.laws.fixture import VirtualFixture
     from app.device.control.loop import Host, Loop, Priority
     from app.device.control.shared import INPUT_NAMES, Inbox
     from app.device.control.table import Table, machine_stages
@@ -31,7 +30,6 @@ __all__ = [
     "Stage",
     "Table",
     "Timing",
-    "VirtualFixture",
     "laws",
     "machine_stages",
     "stage_cost",
@@ -46,7 +44,6 @@ _MODULES = {
     "Stage": "table",
     "Table": "table",
     "Timing": "timing",
-    "VirtualFixture": "laws.fixture",
     "machine_stages": "table",
     "stage_cost": "cost",
 }

@@ -11,7 +11,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
 from app.core.parameters import Stage, numbered, packed
-from app.device.links.link import BoardInfo, DeviceLink, Link
+from app.device.links.link import Link
 from app.mechanisms.profile import DeviceProfile
 
 
@@ -78,43 +78,3 @@ def simulated_link(profile: DeviceProfile, plant: Iterable[Stage]) -> Link:
     if profile.tension_range is not None:
         read.append(Stage("gauges", gauge_stage, np.zeros(1)))
     return Link.of(read, plant)
-
-
-class SimulatedLink(DeviceLink):
-    """A simulated robot in the shape of a real one: for tests, and for trying the wizard.
-
-    Args:
-        profile: of the robot.
-        plant: stages that read TORQUE_* and write PLANT_*, run after safety.
-        info: who it says it is; by default a simulated board of the profile.
-    """
-
-    def __init__(
-        self,
-        profile: DeviceProfile,
-        plant: Iterable[Stage],
-        info: BoardInfo | None = None,
-    ) -> None:
-        self._link = simulated_link(profile, plant)
-        self._info = info or BoardInfo(
-            profile=profile.name,
-            serial=f"simulated-{profile.name}",
-            firmware="0",
-            protocol="memory",
-            boot=1,
-            simulated=True,
-        )
-
-    def open(self) -> None:
-        """Nothing to connect."""
-
-    def close(self) -> None:
-        """Nothing to let go of."""
-
-    def stages(self) -> Link:
-        """Return encoders and plant."""
-        return self._link
-
-    def info(self) -> BoardInfo:
-        """Return who it says it is."""
-        return self._info
