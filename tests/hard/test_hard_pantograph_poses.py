@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mechanisms.hub_region import HubRegion, locate
 
 from app.core.errors import AcusError
 from app.mechanisms.errors import (
@@ -38,7 +39,6 @@ from app.mechanisms.pantograph import (
 )
 from app.mechanisms.pantograph.dynamics import dynamics_kernel, friction_kernel
 from app.mechanisms.profile import load_profile
-from app.studies.references.workspace import HubRegion, locate
 
 PROFILE = load_profile("icube")
 GEOMETRY, MODEL = PROFILE.pantograph, PROFILE.dynamic_model

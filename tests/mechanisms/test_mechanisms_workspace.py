@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from mechanisms.hub_region import HubRegion, locate, survey
 from scipy.optimize import minimize
 
 from app.mechanisms.errors import MechanismError
@@ -12,7 +13,7 @@ from app.mechanisms.pantograph import (
     needle_at,
 )
 from app.mechanisms.profile import load_profile
-from app.studies.references.workspace import HubRegion, locate, survey, torque_per_newton
+from app.studies.references.workspace import torque_per_newton
 
 PROFILE = load_profile("icube")
 GEOMETRY = PROFILE.pantograph
