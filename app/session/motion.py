@@ -157,15 +157,6 @@ class NeedleMotion:
         return None if self.bend is None else Bend.of_numbers(self.bend[row])
 
 
-def motion_of(recording: Recording) -> NeedleMotion:
-    """Return the motion that a record holds.
-
-    Raises:
-        BrokenRecordingError: if the record holds no plan.
-    """
-    return motion(recording.samples, recording.placed_plan(), needle_length(recording))
-
-
 def motion(samples: Samples, placed: PlacedPlan, length: float = NEEDLE_LENGTH) -> NeedleMotion:
     """Return the motion of samples with their plan, of a needle of a length [m]."""
     time = samples.time - samples.time[0] if len(samples.time) else samples.time

@@ -12,7 +12,6 @@ Moment = Callable[[float], str]
 """Tells a monotonic time [s] as the student's clock showed it."""
 
 OF_SAMPLES: Final = frozenset({"diagnostic_samples", "lesion_in_sample", "throw_hits"})
-OF_ANAESTHETIC: Final = frozenset({"anaesthetic_gap", "pierced_by_anaesthetic"})
 
 
 def procedure_reasons(metric: str, steps: ProcedureMarks | None, moment: Moment) -> tuple[str, ...]:

@@ -154,21 +154,6 @@ def named(skill: str, script: Script) -> str:
     return skill if script is Script.QUICK else skill + SUFFIX
 
 
-def find_hand(name: str) -> Hand:
-    """Return a hand by the name that records have.
-
-    Raises:
-        SimulationError: naming the hands that exist.
-    """
-    if name not in HANDS:
-        raise SimulationError(
-            sentence(
-                "there is no hand {name!r}; there are {hands}", name=name, hands=", ".join(HANDS)
-            )
-        )
-    return HANDS[name]
-
-
 def write_hand_script(
     axis: FloatArray, depth: float, hand: Hand, seed: int, holds: bool = False
 ) -> TraineeScript:

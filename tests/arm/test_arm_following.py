@@ -16,7 +16,7 @@ from app.arm.motion.following import (
     Sweep,
     follow,
 )
-from app.arm.motion.path import tool_poses
+from app.arm.motion.path import wrists
 from app.arm.motion.pivot import SHAFT_OFF, HeldTool, Pivot
 from app.core.arrays import angle_between
 from app.core.rotation import rotation_exp, rotation_log
@@ -35,7 +35,8 @@ S = np.linspace(0.0, 1.0, 777)
 def missed(followed, motion, T_tool_moved):
     """Largest error of position and orientation at places that the planner did not look at."""
     off = turned = 0.0
-    for s, tool in zip(S, tool_poses(ARM, followed.path.at(S)), strict=True):
+    for s, turn, place in zip(S, *wrists(ARM, followed.path.at(S)), strict=True):
+        tool = ARM.tool_pose(RigidTransform(turn, place))
         found, wanted = tool @ T_tool_moved, motion.at(float(s))
         off = max(off, float(np.linalg.norm(found.translation - wanted.translation)))
         turn = rotation_log(found.rotation.T @ wanted.rotation)

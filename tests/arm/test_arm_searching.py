@@ -10,10 +10,9 @@ import pytest
 from app.arm.mechanics import solve
 from app.arm.motion.errors import PlannerMissingError
 from app.arm.motion.path import JointPath
-from app.arm.motion.pivot import SHAFT_OFF
-from app.arm.motion.searching import Budget, Collisions, Planner, SearchError, search, search_tips
+from app.arm.motion.searching import Budget, Collisions, Planner, SearchError, search
 from app.core.transform import RigidTransform
-from tests.arm.motion_rig import ARM, PIVOT, TOOL, post
+from tests.arm.motion_rig import ARM, post
 
 pytest.importorskip("ompl", reason="the extra `arm` is not installed")
 
@@ -90,31 +89,6 @@ def test_without_ompl_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "ompl.base", None)
     with pytest.raises(PlannerMissingError, match=r"make extra NAME=arm"):
         search(ARM, POST, START, GOAL)
-
-
-@pytest.mark.long("statistics")
-def test_the_tip_goes_around_something_within_the_body_with_the_shaft_in_the_fulcrum():
-    first = PIVOT.p_world + [-0.03, 0.0, -0.1]
-    goal = PIVOT.p_world + [0.04, 0.0, -0.1]
-    start = solve(ARM, PIVOT.wrist_pose(PIVOT.tip_pose(first, 2.1))).q
-    vessel = PIVOT.p_world + [0.005, 0.0, -0.1]
-
-    def distance(q):
-        needle = TOOL.needle_pose(ARM, q)
-        within = needle.translation - np.linspace(0.0, 0.15, 60)[:, None] * needle.rotation[:, 2]
-        return float(np.linalg.norm(within - vessel, axis=1).min()) - 0.012
-
-    things = Collisions(lambda q: distance(q) > 0.0)
-    found = search_tips(PIVOT, things, start, goal)
-    again = search_tips(PIVOT, things, start, goal)
-    q = fine(found)
-    assert (q == fine(again)).all()
-    assert min(distance(one) for one in q) > 0.0
-    assert max(PIVOT.state(one).off for one in q) <= SHAFT_OFF
-    assert np.linalg.norm(TOOL.needle_pose(ARM, q[-1]).translation - goal) < 5e-5
-    assert found.first_length > 0.07
-    with pytest.raises(SearchError, match="at the goal"):
-        search_tips(PIVOT, things, start, vessel)
 
 
 @pytest.mark.long("statistics")

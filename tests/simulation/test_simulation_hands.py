@@ -13,7 +13,6 @@ from app.simulation.hands import (
     WITHIN_HOLD,
     Hand,
     Script,
-    find_hand,
     named,
     write_hand_script,
 )
@@ -146,8 +145,6 @@ def test_movements_go_on_from_where_the_last_one_ended() -> None:
 
 def test_names_tell_the_script_and_bad_ones_are_refused() -> None:
     assert named("expert", Script.QUICK) == "expert"
-    assert find_hand(named("proficient", Script.HAND)) is PROFICIENT
-    with pytest.raises(SimulationError, match="there is no hand 'expert'; there are novice-hand"):
-        find_hand("expert")
+    assert HANDS[named("proficient", Script.HAND)] is PROFICIENT
     with pytest.raises(SimulationError, match="it must be above 0"):
         write_hand_script(AXIS, 0.0, EXPERT, 1)

@@ -2,15 +2,28 @@
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
+from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.errors import TrackingError
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import RigProfile
-from app.tracking.stereo.epipolar import distance_to_curve, epipolar_curve
+from app.tracking.stereo.epipolar import epipolar_curve
 from app.tracking.tracker import Tracker
+
+
+def distance_to_curve(pixel: ArrayLike, curve: FloatArray) -> float | None:
+    """Distance [px] of a pixel from a curve of points, shape (n, 2); None for fewer than two."""
+    if len(curve) < 2:
+        return None
+    point, steps = np.asarray(pixel, dtype=np.float64), np.diff(curve, axis=0)
+    lengths = np.maximum(np.sum(steps**2, axis=1), 1e-12)
+    share = np.clip(np.sum((point - curve[:-1]) * steps, axis=1) / lengths, 0.0, 1.0)
+    nearest = curve[:-1] + share[:, None] * steps
+    return float(np.min(np.linalg.norm(point - nearest, axis=1)))
 
 
 def test_every_point_lies_on_the_curve_of_its_pixel(wide: RigProfile, thesis: RigProfile) -> None:

@@ -27,7 +27,6 @@ from app.arm.motion.errors import MotionError
 from app.core.arrays import FloatArray, frozen, read_only
 from app.core.compiled import njit
 from app.core.messages import sentence
-from app.core.transform import RigidTransform
 
 FINE: Final = 4
 """Places looked at in each interval of a path's knots."""
@@ -184,12 +183,3 @@ def axis_points(arm: ArmProfile, q: FloatArray, wrist: FloatArray) -> FloatArray
     points[:, 3] = points[:, 0] + arm.upper_arm * upwards
     points[:, 4:] = wrist[:, None, :]
     return points
-
-
-def tool_poses(arm: ArmProfile, q: FloatArray) -> list[RigidTransform]:
-    """Poses of the arm's tool in the world at joint angles [rad], shape (n, 7)."""
-    rotation, position = wrists(arm, q)
-    return [
-        arm.tool_pose(RigidTransform(turn, place))
-        for turn, place in zip(rotation, position, strict=True)
-    ]

@@ -23,18 +23,15 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.arm.mechanics import ArmProfile, solve
+from app.arm.mechanics import ArmProfile
 from app.arm.mechanics.kinematics import seven
 from app.arm.motion.errors import MotionError, PlannerMissingError
-from app.arm.motion.following import MotionRefusedError, Sweep, follow
 from app.arm.motion.path import Bends, JointPath
-from app.arm.motion.pivot import Pivot
 from app.arm.motion.timing import timed
-from app.core.arrays import FloatArray, frozen
+from app.core.arrays import FloatArray
 from app.core.extras import not_installed
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
-from app.mechanisms.errors import MechanismError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -42,7 +39,6 @@ if TYPE_CHECKING:
 TOUCH: Final = 0.5 * MILLIMETRE
 """Motion [m] below which a step that distances do not prove free counts as touching."""
 
-_TIP_STEP: Final = 2.0 * MILLIMETRE  # between tests of the tip's way
 _HALVINGS: Final = 5  # of a spline's intervals, until it is free
 _SHORTCUTS: Final = 60
 _ATTEMPTS: Final = 3
@@ -249,102 +245,6 @@ def search(
     stopping = sum(timed(arm, one).duration for one in straights)
     faster = timed(arm, smooth).duration < stopping
     return run.found((smooth,) if faster else straights, first)
-
-
-def search_tips(
-    pivot: Pivot,
-    collisions: Collisions,
-    start: ArrayLike,
-    goal_tip: ArrayLike,
-    planner: Planner = Planner.RRT_CONNECT,
-    budget: Budget | None = None,
-) -> FoundWay:
-    """Find a way of the tip within the body; the shaft stays in the fulcrum.
-
-    Postures are taken near the first one while searching, and each near the one before in the path
-    that comes out, which is checked as it is; where the two differ and something is in the way, the
-    search goes on with another seed.
-
-    Args:
-        pivot: trocar, tool and arm.
-        collisions: what is free.
-        start: joint angles [rad], shape (7,), the shaft in the fulcrum.
-        goal_tip: where the tip shall be [m], shape (3,); the roll is kept.
-        planner: how to search.
-        budget: when to give up, and the seed; None for the default.
-
-    Raises:
-        SearchError: if an end is not free, or no way was found.
-        FulcrumError, NoGripError: if the tip cannot be at one of the ends (see `Pivot.aim`).
-        PlannerMissingError: if OMPL is not installed.
-    """
-    arm, q0 = pivot.arm, seven(start, "start")
-    run = _Run(budget or Budget(), collisions.free)
-    roll, tip = pivot.state(q0).roll, pivot.tool.needle_pose(arm, q0).translation
-    goal = frozen(goal_tip, (3,), "goal_tip")
-    counted = Collisions(run.valid, collisions.distance, collisions.beyond, collisions.step)
-
-    def valid(place: FloatArray) -> bool:
-        try:
-            pose = pivot.wrist_pose(pivot.tip_pose(place, roll))
-            return run.valid(solve(arm, pose, q0).q)
-        except (MechanismError, MotionError):
-            return False
-
-    def clear(a: FloatArray, b: FloatArray) -> bool:
-        count = 1 + int(np.linalg.norm(b - a) / _TIP_STEP)
-        return all(valid(a + (b - a) * k / count) for k in range(count + 1))
-
-    def followed(groups: Sequence[FloatArray]) -> tuple[JointPath, ...] | None:
-        near, paths = q0, []
-        for tips in groups:
-            try:
-                one = follow(
-                    arm,
-                    Sweep(pivot, tips, roll),
-                    pivot.tool.T_tool_needle,
-                    near,
-                    pivot,
-                    suggest=False,
-                )
-            except (MotionRefusedError, MechanismError, MotionError):
-                return None
-            if counted.stopped(arm, one.path) is not None:
-                return None
-            near = one.path.q[-1]
-            paths.append(one.path)
-        return tuple(paths)
-
-    for name, place in (("start", tip), ("goal", goal)):
-        pivot.aim(place)
-        if not valid(place):
-            raise SearchError(
-                sentence(
-                    "with the tip at the {name} the arm touches something, or has no posture",
-                    name=name,
-                )
-            )
-    if not np.linalg.norm(goal - tip) > 0.0:
-        raise SearchError(sentence("the tip is where it shall go: there is nothing to move"))
-    if clear(tip, goal) and (direct := followed([np.array([tip, goal])])) is not None:
-        return run.found(direct, float(np.linalg.norm(goal - tip)))
-    deepest = pivot.tool.grip - pivot.clearance
-    box = (pivot.p_world - deepest, pivot.p_world + deepest)
-    for attempt in range(_ATTEMPTS):
-        points = run.search(box, tip, goal, valid, _TIP_STEP, planner, attempt)
-        first = _length(points)
-        points = _shortened(points, clear, run.rng)
-        pairs = [np.array(pair) for pair in pairwise(points)]
-        paths = followed([np.array(points)]) or followed(pairs)
-        if paths is not None:
-            return run.found(paths, first)
-    raise SearchError(
-        sentence(
-            "{attempts} ways of the tip were found, but the arm's postures along them touch"
-            " something: begin with another posture or roll",
-            attempts=_ATTEMPTS,
-        )
-    )
 
 
 class _Run:

@@ -38,7 +38,6 @@ DEVICE_ID: Final = host.SPARE
 LEFT_SECOND: Final = host.SPARE + 1  # 1 if the left joint has the higher port
 AWAITING: Final = host.SPARE + 2  # 1 while a command is under way
 LAST_TORQUE: Final = host.SPARE + 3  # largest torque of the last command [N·m]
-_DEGREE: Final = np.pi / 180.0
 
 
 def setup(profile: DeviceProfile) -> bytes:

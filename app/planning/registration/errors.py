@@ -9,7 +9,3 @@ class RegistrationError(AcusError, ValueError):
 
 class DegenerateFiducialsError(RegistrationError):
     """Fiducials that do not fix a rotation: fewer than three, coincident, or on one line."""
-
-
-class CorrespondenceError(RegistrationError):
-    """Points that do not belong to the fiducials they are named after."""

@@ -155,10 +155,6 @@ class Facts:
             )
         object.__setattr__(self, "known", MappingProxyType(dict(self.known)))
 
-    def having(self, **known: bool) -> Facts:
-        """Return the same with more known."""
-        return Facts(self.lying, {**self.known, **known})
-
     def document(self) -> dict[str, Any]:
         """Return it as JSON-ready values; what is not known is left out."""
         lying = {} if self.lying is None else {"lying": self.lying.value}

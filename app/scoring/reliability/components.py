@@ -95,11 +95,6 @@ class ScoreCube:
             )
         object.__setattr__(self, "values", values)
 
-    @property
-    def is_complete(self) -> bool:
-        """Return whether every cell has points."""
-        return bool(np.isfinite(self.values).all())
-
 
 @dataclass(frozen=True)
 class VarianceComponents:

@@ -18,7 +18,6 @@ import numpy as np
 
 from app.core.arrays import FloatArray, frozen
 from app.core.messages import sentence
-from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.camera_model import CameraModel
@@ -396,8 +395,3 @@ def _status(
     if base.status is not PoseStatus.FOUND:
         return FixStatus.NO_ORIENTATION, base.reason
     return FixStatus.VALID, ""
-
-
-def camera_in_world(observation: PenObservation, T_world_base: RigidTransform) -> RigidTransform:
-    """T_world_camera by the sheet; only where the sheet's pose was found."""
-    return T_world_base @ observation.base.T_camera_board.inverse()

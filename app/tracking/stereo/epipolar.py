@@ -85,17 +85,6 @@ def essential_matrix(T_camera_world: tuple[RigidTransform, RigidTransform]) -> F
     return np.asarray(skew(T_second_first.translation) @ T_second_first.rotation)
 
 
-def distance_to_curve(pixel: ArrayLike, curve: FloatArray) -> float | None:
-    """Distance [px] of a pixel from a curve of points, shape (n, 2); None for fewer than two."""
-    if len(curve) < 2:
-        return None
-    point, steps = np.asarray(pixel, dtype=np.float64), np.diff(curve, axis=0)
-    lengths = np.maximum(np.sum(steps**2, axis=1), 1e-12)
-    share = np.clip(np.sum((point - curve[:-1]) * steps, axis=1) / lengths, 0.0, 1.0)
-    nearest = curve[:-1] + share[:, None] * steps
-    return float(np.min(np.linalg.norm(point - nearest, axis=1)))
-
-
 def _picture(
     direction: FloatArray, baseline: FloatArray, times: FloatArray, model: CameraModel
 ) -> tuple[FloatArray, np.ndarray[tuple[int, ...], np.dtype[np.bool_]]]:
