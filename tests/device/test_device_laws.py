@@ -24,8 +24,8 @@ from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.device.control import laws
+from app.device.control.laws.forbidden_region import nearest_kernel
 from app.device.control.operational_space import velocity_torques
-from app.device.control.segments import nearest_kernel
 from app.device.errors import LawError
 from app.mechanisms.pantograph import dynamic_terms, inverse, jacobian
 

@@ -33,7 +33,6 @@ from app.device.control.law_kernels import (
     speed_fade,
     store,
 )
-from app.device.control.segments import nearest_kernel
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
 
@@ -152,6 +151,42 @@ def _placed(values: Mapping[str, float], profile: DeviceProfile) -> tuple[FloatA
             )
         )
     return start, axis
+
+
+@njit
+def nearest_kernel(
+    sx: float,
+    sy: float,
+    sz: float,
+    dx: float,
+    dy: float,
+    dz: float,
+    length: float,
+    bx: float,
+    by: float,
+    bz: float,
+) -> tuple[float, float]:
+    """Nearest points of the segment t d, 0 <= t <= length, and s + u b, 0 <= u <= 1: (t, u).
+
+    `d` is a unit vector, `s` the start of the other segment seen from the first one's; `b` may be
+    zero. The answer is unique, and moves without a jump, unless the two are parallel.
+    """
+    bb = bx * bx + by * by + bz * bz
+    bd = bx * dx + by * dy + bz * dz
+    sd = sx * dx + sy * dy + sz * dz
+    sb = sx * bx + sy * by + sz * bz
+    across = bb - bd * bd  # |d x b|²
+    u = 0.0
+    if across > 1e-12 * bb:
+        u = min(max((sd * bd - sb) / across, 0.0), 1.0)
+    t = sd + u * bd
+    if t < 0.0:
+        t = 0.0
+        u = min(max(-sb / bb, 0.0), 1.0) if bb > 0.0 else 0.0
+    elif t > length:
+        t = length
+        u = min(max((t * bd - sb) / bb, 0.0), 1.0) if bb > 0.0 else 0.0
+    return t, u
 
 
 @njit
