@@ -11,6 +11,7 @@ from app.commands.doors import instructor
 from app.commands.reader_language import template
 from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each
+from app.core.errors import writing
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
@@ -47,12 +48,8 @@ def new(
     example = paths.resources() / "research" / "design.yaml"
     if out.exists():
         raise ResearchError(sentence("{file} is there already: give another name", file=out))
-    try:
+    with writing(out, ResearchError):
         write_atomically(out, example.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ResearchError(
-            sentence("cannot write {path}: {reason}", path=out, reason=error.strerror or error)
-        ) from error
     shown = template("{files}: change it, then `acus research check {files.0}`")
     return Answer({"files": [str(out)]}, shown=shown)
 

@@ -1,4 +1,10 @@
-"""The root of every error that Acus raises on purpose."""
+"""The root of every error that Acus raises on purpose, and the one words of a file's own."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from app.core.messages import sentence
 
 
 class AcusError(Exception):
@@ -16,3 +22,33 @@ class ConfigurationError(AcusError, ValueError):
 
 class NumericalError(AcusError, ArithmeticError):
     """An input for which no finite answer exists (NaN, infinite or outside the domain)."""
+
+
+@contextmanager
+def reading(path: Path, kind: type[AcusError]) -> Iterator[None]:
+    """Raise an error of this kind, which names file and reason, where the block meets `OSError`."""
+    try:
+        yield
+    except OSError as error:
+        raise kind(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
+
+
+@contextmanager
+def writing(path: Path, kind: type[AcusError]) -> Iterator[None]:
+    """Raise an error of this kind, which names file and reason, where the block meets `OSError`."""
+    try:
+        yield
+    except OSError as error:
+        raise kind(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.disclaimer import DISCLAIMER
+from app.core.errors import writing
 from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.core.words import printable
@@ -130,16 +131,8 @@ def write_measurements(path: Path, items: Sequence[Measurement], volume: Volume)
     text = json.dumps(
         measurements_document(items, volume), indent=1, allow_nan=False, ensure_ascii=False
     )
-    try:
+    with writing(path, ExportError):
         write_atomically(path, printable(text) + "\n")
-    except OSError as error:
-        raise ExportError(
-            sentence(
-                "cannot write {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
 
 
 def title(item: Measurement, number: int) -> str:
@@ -331,16 +324,8 @@ def write_csv(path: Path, text: str) -> None:
     Raises:
         ExportError: if the file cannot be written.
     """
-    try:
+    with writing(path, ExportError):
         write_atomically(path, b"\xef\xbb\xbf" + text.encode())
-    except OSError as error:
-        raise ExportError(
-            sentence(
-                "cannot write {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
 
 
 def _fixed(row: Summary) -> Sequence[object]:

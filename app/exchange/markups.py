@@ -15,6 +15,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.disclaimer import DISCLAIMER
+from app.core.errors import writing
 from app.core.files import read_at_most, write_atomically
 from app.core.messages import sentence
 from app.core.words import printable
@@ -75,16 +76,8 @@ def write_plan(path: Path, plan: Plan) -> None:
         ExportError: if the file cannot be written.
     """
     text = json.dumps(plan_document(plan), indent=1, allow_nan=False, ensure_ascii=False)
-    try:
+    with writing(path, ExportError):
         write_atomically(path, printable(text) + "\n")
-    except OSError as error:
-        raise ExportError(
-            sentence(
-                "cannot write {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
 
 
 def read_plan(path: Path) -> Plan:

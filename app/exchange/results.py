@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.disclaimer import DISCLAIMER
+from app.core.errors import writing
 from app.core.files import write_atomically
 from app.core.json_values import finite
-from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.words import printable
 from app.exchange.csv_export import table_text, write_csv
@@ -137,16 +137,8 @@ def write_results(path: Path, text: str) -> None:
     if path.suffix.lower() == ".csv":
         write_csv(path, text)
         return
-    try:
+    with writing(path, ExportError):
         write_atomically(path, text)
-    except OSError as error:
-        raise ExportError(
-            sentence(
-                "cannot write {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
 
 
 def results_document(results: Results, progress: Progress | None = None) -> dict[str, Any]:

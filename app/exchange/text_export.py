@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from app.core.errors import writing
 from app.core.files import write_atomically
-from app.core.messages import sentence
 from app.exchange.errors import ExportError
 
 
@@ -13,13 +13,5 @@ def write_text(path: Path, text: str) -> None:
     Raises:
         ExportError: if the file cannot be written.
     """
-    try:
+    with writing(path, ExportError):
         write_atomically(path, text)
-    except OSError as error:
-        raise ExportError(
-            sentence(
-                "cannot write {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error

@@ -34,6 +34,7 @@ from typing import Any
 import numpy as np
 
 from app.core.configuration import parse
+from app.core.errors import reading
 from app.core.files import read_at_most
 from app.core.messages import sentence
 from app.exchange.errors import UrdfError
@@ -245,16 +246,8 @@ def _number(text: str, place: str) -> float:
 
 
 def _root(path: Path) -> ET.Element:
-    try:
+    with reading(path, UrdfError):
         content = read_at_most(path, _LARGEST)
-    except OSError as error:
-        raise UrdfError(
-            sentence(
-                "cannot read {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
     parser = ET.XMLParser(target=_NoDoctype())
     try:
         parser.feed(content)

@@ -14,7 +14,7 @@ import yaml
 from pydantic import Field, model_validator
 
 from app.core.configuration import Strict, load
-from app.core.errors import ConfigurationError
+from app.core.errors import ConfigurationError, writing
 from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.exercises.guidance import Purpose
@@ -140,17 +140,9 @@ class Course(Strict):
         """
         path = courses_folder(folder) / f"{self.id}.yaml"
         text = yaml.safe_dump(self.document(), sort_keys=False, allow_unicode=True)
-        try:
+        with writing(path, CourseError):
             write_atomically(path, text)
             note("course saved", [self.id], path.parent.parent)
-        except OSError as error:
-            raise CourseError(
-                sentence(
-                    "cannot write {path}: {error_strerror}",
-                    path=path,
-                    error_strerror=error.strerror or error,
-                )
-            ) from error
         return path
 
 

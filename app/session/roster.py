@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
+from app.core.errors import reading
 from app.core.files import read_at_most
 from app.core.messages import sentence
 from app.session.accounts import Account
@@ -95,16 +96,8 @@ def roster_in(path: Path) -> tuple[list[RosterLine], list[str]]:
     Raises:
         PeopleError: if the file cannot be read, or is larger.
     """
-    try:
+    with reading(path, PeopleError):
         return read_roster(read_at_most(path))
-    except OSError as error:
-        raise PeopleError(
-            sentence(
-                "cannot read {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
 
 
 def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:

@@ -31,6 +31,7 @@ from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError
 
 from app.core.configuration import LARGEST_FILE
+from app.core.errors import reading
 from app.core.messages import sentence
 from app.session.budget import OBJECT_BYTES, RECORD_BYTES, ReadingBudget, decompressed
 from app.session.errors import BrokenRecordingError
@@ -84,7 +85,7 @@ def scan(path: Path) -> FileContents:
     result = FileContents(ReadingBudget.of(path))
     topics: dict[int, str] = {}
     payloads: dict[int, list[bytes]] = {}
-    try:
+    with reading(path, BrokenRecordingError):
         size = path.stat().st_size
         with path.open("rb") as stream:
             _check_magic(stream, path)
@@ -93,14 +94,6 @@ def scan(path: Path) -> FileContents:
                     payloads.setdefault(record.channel_id, []).append(record.data)
                 else:
                     _sort(record, topics, result)
-    except OSError as error:
-        raise BrokenRecordingError(
-            sentence(
-                "cannot read {path}: {error_strerror}",
-                path=path,
-                error_strerror=error.strerror or error,
-            )
-        ) from error
     # Only now: the index at the end repeats the channels, should the first chunk be damaged.
     result.messages = {topics[i]: data for i, data in payloads.items() if i in topics}
     return result

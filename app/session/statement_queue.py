@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, Final
 from uuid import uuid4
 
+from app.core.errors import writing
 from app.core.files import remove, sweep, write_atomically
 from app.core.messages import sentence
 from app.session.errors import SessionError
@@ -143,18 +144,10 @@ class StatementQueue:
         self._keep(path, "".join(f"{line}\n" for line in lines))
 
     def _keep(self, path: Path, text: str) -> None:
-        try:
+        with writing(path, SessionError):
             self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
             sweep(self.folder)
             write_atomically(path, text)
-        except OSError as error:
-            raise SessionError(
-                sentence(
-                    "cannot write {path}: {error_strerror}",
-                    path=path,
-                    error_strerror=error.strerror or error,
-                )
-            ) from error
 
 
 def _read(path: Path) -> list[QueuedStatement]:

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from app.core import paths
+from app.core.errors import writing
 from app.core.files import BINARY, step, write_atomically
 from app.core.files import beside as new_name_beside
 from app.core.messages import sentence
@@ -198,17 +199,9 @@ class StationKey:
             SignatureError: if it cannot be written.
         """
         path = key_file(folder)
-        try:
+        with writing(path, SignatureError):
             write_atomically(path, json.dumps(self.document()) + "\n")
             path.chmod(0o600)
-        except OSError as error:
-            raise SignatureError(
-                sentence(
-                    "cannot write {path}: {error_strerror}",
-                    path=path,
-                    error_strerror=error.strerror or error,
-                )
-            ) from error
 
 
 def signature_holds(public: str, purpose: str, document: Mapping[str, Any], signature: str) -> bool:

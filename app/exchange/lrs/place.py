@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Final
 from urllib.parse import urlsplit
 
+from app.core.errors import writing
 from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.core.web import fault_of_address
@@ -93,7 +94,7 @@ def put_lrs(place: LrsPlace | None, folder: Path | None = None) -> None:
         ExportError: if no id can begin with its `home`.
     """
     path = (folder or people_folder()) / FILE
-    try:
+    with writing(path, LrsError):
         if place is None:
             path.unlink(missing_ok=True)
             return
@@ -101,7 +102,3 @@ def put_lrs(place: LrsPlace | None, folder: Path | None = None) -> None:
         path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         write_atomically(path, json.dumps(document, indent=1) + "\n")
         path.chmod(0o600)
-    except OSError as error:
-        raise LrsError(
-            sentence("cannot write {path}: {reason}", path=path, reason=error.strerror or error)
-        ) from error

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 from urllib.parse import urlsplit
 
+from app.core.errors import writing
 from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.core.web import fault_of_address
@@ -159,7 +160,7 @@ def put_openid(place: OpenIdPlace | None, people: People) -> None:
         before = None
     if path.exists() and (place is None or before is None or before.issuer != place.issuer):
         unlink(people)
-    try:
+    with writing(path, OpenIdError):
         if place is None:
             path.unlink(missing_ok=True)
         else:
@@ -175,10 +176,6 @@ def put_openid(place: OpenIdPlace | None, people: People) -> None:
             path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
             write_atomically(path, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
             path.chmod(0o600)
-    except OSError as error:
-        raise OpenIdError(
-            sentence("cannot write {path}: {reason}", path=path, reason=error.strerror or error)
-        ) from error
     note("sign-in configured", folder=people.folder)
 
 
