@@ -38,8 +38,8 @@ def moment(plan, depth, tilt, bend=(0.0, 0.0), breath=(0.0, 0.0, 0.0), measured=
     pose = SimpleNamespace(axis=axis, depth=depth, measured=measured, valid=True, p_tip=tip,
                            covariance=sigma**2 * np.eye(3))  # fmt: skip
     return SimpleNamespace(state=State.INSERTING, pose=pose, touch=None, procedure=None,
-                           device=None, pause=None, out_of_room=None, offset=offset(tip, axis, plan, target),
-                           p_target=target)  # fmt: skip
+                           device=None, pause=None, out_of_room=None, p_target=target,
+                           offset=offset(tip, axis, plan, target))  # fmt: skip
 
 
 def view_of(now):
