@@ -9,54 +9,62 @@ nowhere twice, is who was erased gone, hold the limits, and do all stations say 
 
 import argparse
 import json
+import multiprocessing
 import random
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from pathlib import Path
+
+from tests.load.station import serve
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "session"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+COPIES = multiprocessing.get_context("forkserver")
+COPIES.set_forkserver_preload(["tests.load.station"])
+
 
 class StationProgram:
-    """A station in a process of its own, begun again whenever it was killed."""
+    """A station in a process of its own, begun again whenever it was killed.
+
+    Processes are copies of one that has read the program already, so that fifty of them fit into a
+    small computer.
+    """
 
     def __init__(self, root: Path, pool: Path, url: str, offset: float) -> None:
-        self.root, self.offset, self.recorded = root, offset, {}
-        self._command = [
-            sys.executable, "-m", "tests.load.station", str(root), str(pool), url, str(offset)
-        ]  # fmt: skip
-        self._process: subprocess.Popen[str] | None = None
+        self.root, self.offset = root, offset
+        self._given = (root, pool, url, offset)
+        self._process: BaseProcess | None = None
+        self._line: Connection | None = None
 
     def ask(self, line: str, killed_after: float = 0.0) -> dict | None:
         """Return its answer; None where it was killed."""
         if self._process is None:
-            self._process = subprocess.Popen(
-                self._command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-            )
-        process = self._process
-        process.stdin.write(line + "\n")
-        process.stdin.flush()
+            self._line, theirs = COPIES.Pipe()
+            self._process = COPIES.Process(target=serve, args=(*self._given, theirs), daemon=True)
+            self._process.start()
+            theirs.close()
+        self._line.send(line)
         if killed_after:
             time.sleep(killed_after)
             self.kill()
             return None
-        answer = process.stdout.readline()
-        if not answer:
-            raise SystemExit(f"{self.root.name} died of {line!r}")
-        return json.loads(answer)
+        try:
+            return self._line.recv()
+        except EOFError:
+            raise SystemExit(f"{self.root.name} died of {line!r}") from None
 
     def kill(self) -> None:
         if self._process is not None:
             self._process.kill()
-            self._process.wait()
-            self._process.stdin.close()
-            self._process.stdout.close()
+            self._process.join()
+            self._line.close()
             self._process = None
 
 
