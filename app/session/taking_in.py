@@ -191,9 +191,7 @@ class TakingIn:
         return self.current.source
 
     # --- files ------------------------------------------------------------------------------------
-    def _stage(
-        self, gone: frozenset[str], stages: Mapping[Path, Path], progress: Progress
-    ) -> None:
+    def _stage(self, gone: frozenset[str], stages: Mapping[Path, Path], progress: Progress) -> None:
         """Unpack and check what is missing here, and is not `gone` with its person."""
         for number, one in enumerate(self.manifest.attempts):
             progress.report(number / len(self.manifest.attempts), one.attempt)

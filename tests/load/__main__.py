@@ -1,10 +1,11 @@
 """Let many stations work at one store while everything breaks, and compare what they end with.
 
-Run as `make load` or `python -m tests.load [--stations N] [--attempts N] [--seed S]`. Stations are
-programs of their own; they are killed at any moment, so is PostgreSQL; the line between is cut and
-stalls; clocks are off by up to a day; the database is put back to an older state once; students are
-erased. Then everybody meets the store in peace, and it is asked: is every attempt there once and
-nowhere twice, is who was erased gone, hold the limits, and do all stations say the same.
+Run as `make load` or `python -m tests.load [--stations N] [--attempts N] [--seed S]
+[--seconds N]`. Stations are programs of their own; they are killed at any moment, so is PostgreSQL;
+the line between is cut and stalls; clocks are off by up to a day; the database is put back to an
+older state once; students are erased. Then everybody meets the store in peace, and it is asked: is
+every attempt there once and nowhere twice, is who was erased gone, hold the limits, and do all
+stations say the same.
 """
 
 import argparse
@@ -37,9 +38,9 @@ class StationProgram:
     small computer.
     """
 
-    def __init__(self, root: Path, pool: Path, url: str, offset: float) -> None:
-        self.root, self.offset = root, offset
-        self._given = (root, pool, url, offset)
+    def __init__(self, root: Path, pool: Path, url: str, offset: float, seconds: float) -> None:
+        self.root = root
+        self._given = (root, pool, url, offset, seconds)
         self._process: BaseProcess | None = None
         self._line: Connection | None = None
 
@@ -81,6 +82,7 @@ def main() -> int:
     parser.add_argument("--stations", type=int, default=50)
     parser.add_argument("--attempts", type=int, default=20, help="of each station")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seconds", type=float, default=5.0, help="to wait for the store")
     asked = parser.parse_args()
     rng = random.Random(asked.seed)
     root = Path(tempfile.mkdtemp(prefix="acus-load-"))
@@ -107,7 +109,9 @@ def _run(asked, rng, root, home, made, server, proxy, url, program) -> int:
 
     names = ["head", *(f"s{number:02d}" for number in range(1, asked.stations))]
     day = 86400.0
-    stations = [program(root / name, home, url, rng.uniform(-day, day)) for name in names]
+    stations = [
+        program(root / name, home, url, rng.uniform(-day, day), asked.seconds) for name in names
+    ]
     head = stations[0]
     store = SchoolStore(server.url())
     store.open()

@@ -26,7 +26,9 @@ from app.session.station import StationKey
 from app.session.stations import set_name
 
 
-def serve(root: Path, pool: Path, url: str, offset: float, line: Connection) -> None:
+def serve(
+    root: Path, pool: Path, url: str, offset: float, seconds: float, line: Connection
+) -> None:
     """Answer what is asked until nobody asks any more.
 
     Args:
@@ -34,12 +36,13 @@ def serve(root: Path, pool: Path, url: str, offset: float, line: Connection) -> 
         pool: with records that were made once.
         url: of the store.
         offset: by which its clock is off [s].
+        seconds: to wait for the store.
         line: to whom asks.
     """
     os.environ["ACUS_DATA"] = str(root / "data")
     real = time.time
     time.time = lambda: real() + offset
-    station = Station(root, pool, url)
+    station = Station(root, pool, url, seconds)
     while True:
         try:
             what, *arguments = line.recv().split()
@@ -53,7 +56,7 @@ def serve(root: Path, pool: Path, url: str, offset: float, line: Connection) -> 
 
 
 class Station:
-    def __init__(self, root: Path, pool: Path, url: str) -> None:
+    def __init__(self, root: Path, pool: Path, url: str, seconds: float) -> None:
         self.name, self.folder = root.name, root / "records"
         self.folder.mkdir(parents=True, exist_ok=True)
         self.people, self.key = People(), StationKey.of()
@@ -61,7 +64,7 @@ class Station:
             set_name(self.name)
         made = json.loads((pool / "records.json").read_text())
         self.pool = {key: [Path(name) for name in some] for key, some in made.items()}
-        self.place = StorePlace(url, gives_course=self.name == "head", pins=True, seconds=5.0)
+        self.place = StorePlace(url, gives_course=self.name == "head", pins=True, seconds=seconds)
         self.summaries: dict[Path, object] = {}
 
     def record(self, student: str) -> dict[str, object]:
