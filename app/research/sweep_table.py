@@ -164,7 +164,7 @@ def read_sweep(path: Path) -> SweepTable:
     if lacking:
         raise ResearchError(
             sentence(
-                "{path} is no table of a sweep: it has no {columns}; `acus cohort sweep` writes one",
+                "{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one",
                 path=path,
                 columns=", ".join(sorted(lacking)),
             )

@@ -173,11 +173,9 @@ class SweepTab(QWidget):
         self, x: list[float], means: Sequence[SweepMean], scale: float, hue: str, symbol: str
     ) -> None:
         y = [scale * one.mean for one in means]
-        above = [scale * (one.upper - one.mean) for one in means]
-        below = [scale * (one.mean - one.lower) for one in means]
-        bars = pg.ErrorBarItem(pen=pg.mkPen(hue, width=1.2), beam=0.0)
-        bars.setData(x=_array(x), y=_array(y), top=_array(above), bottom=_array(below))
-        self.plot.addItem(bars)
+        ends = [scale * end for one in means for end in (one.lower, one.upper)]
+        twice = [place for place in x for _ in range(2)]  # a line from end to end, then a gap
+        self.plot.plot(twice, ends, pen=pg.mkPen(hue, width=1.2), connect="pairs")
         self.plot.plot(
             x,
             y,
@@ -239,9 +237,3 @@ def _places(means: Sequence[SweepMean]) -> dict[str | float, float]:
     if all(isinstance(value, int | float) for value in values):
         return {value: float(value) for value in values}
     return {value: float(place) for place, value in enumerate(values)}
-
-
-def _array(values: Sequence[float]) -> object:
-    import numpy as np
-
-    return np.array(values, dtype=np.float64)
