@@ -172,6 +172,7 @@ def _run(asked, rng, root, home, made, server, proxy, url, program) -> int:
     proxy.behave("pass")
     whole = {}
     for one in stations:
+        one.ask("settle")  # a kill in the middle of an erasure leaves a record without signature
         whole |= records_of(one)
     print(f"{len(whole)} attempts lie at the stations; all meet the store in peace", flush=True)
     own = {}

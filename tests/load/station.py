@@ -1,7 +1,7 @@
 """One station as a program of its own: told what to do by a line, killed at any moment.
 
-Each question is `record KEY`, `say TEXT`, `void`, `erase NAME`, `sync`, `sync trust` or `stored`;
-each answer is a mapping.
+Each question is `record KEY`, `say TEXT`, `void`, `erase NAME`, `sync`, `sync trust`, `settle`
+or `stored`; each answer is a mapping.
 """
 
 import hashlib
@@ -24,6 +24,7 @@ from app.session.sidecar import fresh_kept, write_summary
 from app.session.signature import _document, signature_file, signature_text
 from app.session.station import StationKey
 from app.session.stations import set_name
+from app.session.store import settled
 
 
 def serve(
@@ -114,6 +115,11 @@ class Station:
             "unknown": len(done.unknown),
             "seconds": time.monotonic() - begun,
         }
+
+    def settle(self) -> dict[str, object]:
+        """End what a kill has cut off, as the next look at the folder does."""
+        settled(self.folder)
+        return {"people": len(self.people.everybody())}
 
     def stored(self) -> dict[str, object]:
         """Return what all stations must agree on."""
