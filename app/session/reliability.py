@@ -156,25 +156,25 @@ class CourseReliability:
 
     def lines(self) -> tuple[str, ...]:
         """Say it in a few lines, for a report and the board."""
-        study, components, said = self.study, self.components, list[str]()
+        study, components, lines = self.study, self.components, list[str]()
         if study is not None and components is not None:
             there = (components.exercises, components.occasions)
             for name, absolute in (("G", False), ("Phi", True)):
-                said.append(
+                lines.append(
                     sentence(
-                        "{name} {value:.2f}{interval}: {what}, of a mean of {exercises} exercises "
+                        "{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} exercises "
                         "with {attempts} attempts at each",
                         name=name,
-                        value=study.coefficient(*there, absolute),
+                        coefficient=study.coefficient(*there, absolute),
                         interval=_between(study.interval(*there, absolute)),
-                        what=sentence("how far it holds a student against a mark")
+                        meaning=sentence("how far it holds a student against a mark")
                         if absolute
                         else sentence("how far it ranks students"),
                         exercises=there[0],
                         attempts=there[1],
                     )
                 )
-            said.append(
+            lines.append(
                 sentence(
                     "a single score is good to ± {error:.1f} points",
                     error=study.standard_error(),
@@ -182,16 +182,16 @@ class CourseReliability:
             )
         for one in self.agreement:
             if one.form == "2,k":
-                said.append(
+                lines.append(
                     sentence(
-                        "ICC(2,k) {value:.2f}{interval}: agreement of the exercises, of the "
+                        "ICC(2,k) {coefficient:.2f}{interval}: agreement of the exercises, of the "
                         "{students} students who have them all",
-                        value=one.value,
+                        coefficient=one.value,
                         interval=_between((one.lower, one.upper)),
                         students=self.complete,
                     )
                 )
-        return tuple(said)
+        return tuple(lines)
 
 
 def _limits(interval: tuple[float, float] | None) -> dict[str, float] | None:
@@ -263,7 +263,7 @@ def course_reliability(board: ProgressBoard, at_most: int = AT_MOST) -> CourseRe
     )
 
 
-def told(board: ProgressBoard) -> tuple[str, ...]:
+def reliability_lines(board: ProgressBoard) -> tuple[str, ...]:
     """Say how far the scores of a board can be relied on, or in one line why that is not known."""
     try:
         result = course_reliability(board)

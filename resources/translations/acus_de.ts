@@ -22057,8 +22057,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{name!r} zählt nicht (ungültig, ohne Punkte, ein Drill oder nicht von dieser Station): Löschen Sie die Zeile</translation>
         </message>
         <message>
-            <source>{name} {value:.2f}{interval}: {what}, of a mean of {exercises} exercises with {attempts} attempts at each</source>
-            <translation type="unfinished">{name} {value:.2f}{interval}: {what}, für ein Mittel von {exercises} Übungen mit je {attempts} Versuchen</translation>
+            <source>{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} exercises with {attempts} attempts at each</source>
+            <translation type="unfinished">{name} {coefficient:.2f}{interval}: {meaning}, für ein Mittel von {exercises} Übungen mit je {attempts} Versuchen</translation>
         </message>
         <message>
             <source>how far it holds a student against a mark</source>
@@ -22073,8 +22073,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">ein einzelnes Ergebnis ist auf ± {error:.1f} Punkte genau</translation>
         </message>
         <message>
-            <source>ICC(2,k) {value:.2f}{interval}: agreement of the exercises, of the {students} students who have them all</source>
-            <translation type="unfinished">ICC(2,k) {value:.2f}{interval}: Übereinstimmung der Übungen, von den {students} Studierenden, die alle haben</translation>
+            <source>ICC(2,k) {coefficient:.2f}{interval}: agreement of the exercises, of the {students} students who have them all</source>
+            <translation type="unfinished">ICC(2,k) {coefficient:.2f}{interval}: Übereinstimmung der Übungen, von den {students} Studierenden, die alle haben</translation>
         </message>
         <message>
             <source> ({lower:.2f} to {upper:.2f})</source>

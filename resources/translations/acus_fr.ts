@@ -22057,8 +22057,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{name!r} ne compte pas (nul, sans score, un exercice partiel, ou pas de ce poste) : supprimez la ligne</translation>
         </message>
         <message>
-            <source>{name} {value:.2f}{interval}: {what}, of a mean of {exercises} exercises with {attempts} attempts at each</source>
-            <translation type="unfinished">{name} {value:.2f}{interval} : {what}, pour une moyenne de {exercises} exercices avec {attempts} essais chacun</translation>
+            <source>{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} exercises with {attempts} attempts at each</source>
+            <translation type="unfinished">{name} {coefficient:.2f}{interval} : {meaning}, pour une moyenne de {exercises} exercices avec {attempts} essais chacun</translation>
         </message>
         <message>
             <source>how far it holds a student against a mark</source>
@@ -22073,8 +22073,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">un score isolé est précis à ± {error:.1f} points</translation>
         </message>
         <message>
-            <source>ICC(2,k) {value:.2f}{interval}: agreement of the exercises, of the {students} students who have them all</source>
-            <translation type="unfinished">ICC(2,k) {value:.2f}{interval} : concordance des exercices, des {students} étudiants qui les ont tous</translation>
+            <source>ICC(2,k) {coefficient:.2f}{interval}: agreement of the exercises, of the {students} students who have them all</source>
+            <translation type="unfinished">ICC(2,k) {coefficient:.2f}{interval} : concordance des exercices, des {students} étudiants qui les ont tous</translation>
         </message>
         <message>
             <source> ({lower:.2f} to {upper:.2f})</source>

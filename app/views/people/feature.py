@@ -35,7 +35,7 @@ from app.session.course_plan import course_plans
 from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
-from app.session.reliability import told
+from app.session.reliability import reliability_lines
 from app.session.roster import RosterLine, roster_in
 from app.session.stations import NAME_SETTING
 from app.views.kit.access import ACCESS
@@ -624,7 +624,7 @@ class PeopleFeature(Feature):
         def show(lines: Sequence[str]) -> None:
             self._tell(title, tr("Intervals are of 95 %."), "\n".join(map(begun, lines)))
 
-        self._beside(lambda _: told(board), show, title)
+        self._beside(lambda _: reliability_lines(board), show, title)
 
     def _chosen_student(self) -> Person | None:
         """Return the student whose row of the board is chosen."""

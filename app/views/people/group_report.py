@@ -22,7 +22,7 @@ from app.exercises.guidance import Purpose
 from app.session.board import BoardCell
 from app.session.course import CourseItem
 from app.session.people import Person
-from app.session.reliability import told
+from app.session.reliability import reliability_lines
 from app.views.debrief.report import DIM, INK, RULE
 from app.views.kit.text import day, number, tr, tr_n, translated
 from app.views.people.competence_marks import MARKS
@@ -76,7 +76,7 @@ def group_report(
         Cancelled: if that was asked for.
     """
     progress = progress or Progress()
-    students, reliable = in_order(results), told(results.board)
+    students, reliable = in_order(results), reliability_lines(results.board)
 
     def fill(sheet: ReportPages) -> None:
         begun = 0.5 if sheet.pages else 0.0
