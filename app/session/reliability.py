@@ -162,8 +162,8 @@ class CourseReliability:
             for name, absolute in (("G", False), ("Phi", True)):
                 lines.append(
                     sentence(
-                        "{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} exercises "
-                        "with {attempts} attempts at each",
+                        "{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} "
+                        "exercises with {attempts} attempts at each",
                         name=name,
                         coefficient=study.coefficient(*there, absolute),
                         interval=_between(study.interval(*there, absolute)),

@@ -24,7 +24,7 @@ from app.views.accuracy.diagram import Diagram
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.accuracy.page import AccuracyPage, share_words
 from app.views.accuracy.panel import EffectsPanel
-from app.views.accuracy.sweep_tab import SweepTab
+from app.views.accuracy.sweep_tab import SweepTab, measure_words
 
 DEAR = EffectCost("a", "Dear", "fine", {"fine": "", "rough": ""}, {"fine": 9e-4, "rough": 1e-6}, "")
 CHEAP = EffectCost("b", "Cheap", "one", {"one": "only"}, {"one": 1e-7}, "")
@@ -307,8 +307,8 @@ def test_a_sweep_is_drawn_along_what_was_varied_and_keeps_what_was_chosen(applic
         "0",
     ]
     assert marked(tab) == [[0.0, 2.0, 5.0]] * 2
-    assert "48 attempts of scripts, not people" in tab.said.text()
-    assert "one costs 1.44 s of a processor, a million 400 h" in tab.said.text()
+    assert "48 attempts of scripts, not people" in tab.summary.text()
+    assert "one costs 1.44 s of a processor, a million 400 h" in tab.summary.text()
     assert "expert" in tab.series.text()
 
 
@@ -318,3 +318,9 @@ def test_texts_stand_on_the_axis_one_after_another(application):
     assert tab.over.currentData() == "skill"
     assert marked(tab) == [[0.0, 1.0]]
     assert [tab.means.item(row, 1).text() for row in range(2)] == ["expert", "novice"]
+
+
+def test_a_metric_is_called_as_everywhere_with_its_unit_and_another_column_by_its_name():
+    assert measure_words("value_target_error").endswith(" [mm]")
+    assert "_" not in measure_words("value_target_error")
+    assert measure_words("value_of_somebody") == "value_of_somebody"

@@ -54,7 +54,7 @@ class SweepTab(QWidget):
             literal(tr("The table of `acus cohort sweep`, or one that is growing"))
         )
         self.open.clicked.connect(self.wanted)
-        self.said = label(
+        self.summary = label(
             tr("What `acus cohort sweep` has found, also while it works. Scripts, not people.")
         )
         self.grown = QProgressBar(self)
@@ -90,7 +90,7 @@ class SweepTab(QWidget):
         self.means.setMinimumHeight((_ROWS + 1) * theme.CONTROL_HEIGHT)
         head = QHBoxLayout()
         head.addWidget(self.open)
-        head.addWidget(self.said, 1)
+        head.addWidget(self.summary, 1)
         column = QVBoxLayout(self)
         column.addLayout(head)
         column.addWidget(self.grown)
@@ -138,7 +138,7 @@ class SweepTab(QWidget):
                     hours=hours,
                 )
             )
-        self.said.setText("; ".join(parts) + ".")
+        self.summary.setText("; ".join(parts) + ".")
         self.grown.setVisible(not sweep.finished)
         self.grown.setRange(0, sweep.wanted or 0)
         self.grown.setValue(min(sweep.attempts, sweep.wanted or 0))
@@ -228,7 +228,7 @@ def measure_words(name: str) -> str:
     if name in shipped or metric is None:
         return shipped.get(name, name)
     unit = f" [{metric.unit}]" if metric.unit else ""
-    return f"{declared(metric.label)}{unit}"
+    return f"{declared(metric.title)}{unit}"
 
 
 def _places(means: Sequence[SweepMean]) -> dict[str | float, float]:
