@@ -120,7 +120,9 @@ class _Deviance:
         out = inverse @ (scaled_out - np.einsum("spr,spk->rk", b, up))
         within = up - over @ out
         inner = self.inner - np.einsum("spk,spl->kl", scaled, within) - scaled_out.T @ out
-        a = float(inner[1, 1])
+        a = max(
+            float(inner[1, 1]), 1e-12 * self.n
+        )  # where nothing is left to chance it is rounding
         mean = float(inner[0, 1]) / a
         rest = max(float(inner[0, 0]) - mean * float(inner[0, 1]), 1e-300)
         log_m = float(np.linalg.slogdet(d)[1].sum()) + float(np.linalg.slogdet(schur)[1])
