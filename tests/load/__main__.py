@@ -203,6 +203,10 @@ def _run(asked, rng, root, home, made, server, proxy, url, program) -> int:
     gone = [key for key in students if key not in first["people"]]
     wanted = {name for name, student in own.items() if student not in gone}
     said = {"all stations say the same": all(one == first for one in stored)}
+    for station, one in zip(stations, stored, strict=True):
+        for name in (name for name in first if one[name] != first[name]):
+            apart = [set(map(str, some)) for some in (first[name], one[name])]
+            print(f"{station.root.name} differs from head in {name}: {sorted(apart[0] ^ apart[1])}")
     said["no attempt is lost or doubled"] = set(first["attempts"]) == wanted
     said["who is erased is gone"] = len(gone) == 1
     counted = {}
