@@ -22,6 +22,7 @@ from app.cohort.cost import AttemptCost, Spent
 from app.cohort.errors import CohortError
 from app.cohort.table import Columns, Row, arrow, join_parts, read_part, write_part
 from app.cohort.versions import differences, versions
+from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.core.progress import Progress
 
@@ -157,6 +158,11 @@ def run(
     before, rows = len(spent), sum(part.rows for part in parts)
     done = sum(parts[number].rows for number in spent)
     missing = [number for number in range(len(parts)) if number not in spent]
+
+    try:  # for who looks while it grows
+        write_atomically(folder / "run.json", json.dumps({"rows": rows, "parts": len(parts)}))
+    except OSError as error:
+        raise _unwritable(folder, error) from error
 
     def tell() -> None:
         text = sentence("{done} of {rows} attempts", done=done, rows=rows)

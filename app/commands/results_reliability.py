@@ -108,7 +108,7 @@ def _facts(result: "CourseReliability", course: str, last: int) -> dict[str, Any
         "attempts": result.attempts,
         "last": last,
         "variance": _variance(result),
-        "decision": _decision(result),
+        "decision": result.decision(),
         "complete": result.complete,
         "agreement": [agreement_document(one) for one in result.agreement],
         "exercises": [one.document() for one in result.exercises],
@@ -135,37 +135,6 @@ def _variance(result: "CourseReliability") -> dict[str, Any] | None:
             }
             for name, variance in components.variances.items()
         ],
-    }
-
-
-def _decision(result: "CourseReliability") -> dict[str, Any] | None:
-    """Return G and Phi as it was, and with other numbers of attempts."""
-    study, components = result.study, result.components
-    if study is None or components is None:
-        return None
-    exercises, occasions = components.exercises, components.occasions
-    counts = sorted({1, 2, 3, 5, 8, 12, occasions}) if study.sees_attempts else [1]
-    return {
-        "exercises": exercises,
-        "attempts": occasions,
-        "rows": [
-            {
-                "attempts": count,
-                "g": study.coefficient(exercises, count),
-                "phi": study.coefficient(exercises, count, absolute=True),
-                "relative_error": study.standard_error(exercises, count, absolute=False),
-                "absolute_error": study.standard_error(exercises, count),
-            }
-            for count in counts
-        ],
-        "attempts_for_g": study.attempts_for(exercises),
-        "attempts_for_phi": study.attempts_for(exercises, absolute=True),
-        "exercises_for_g": study.exercises_for(occasions),
-        "exercises_for_phi": study.exercises_for(occasions, absolute=True),
-        "score_error": {
-            "relative": study.standard_error(absolute=False),
-            "absolute": study.standard_error(),
-        },
     }
 
 
@@ -219,10 +188,15 @@ def _decision_lines(result: "CourseReliability") -> list[str | Each]:
             "\na single score is good to ± {decision.score_error.absolute:.1f} points "
             "(± {decision.score_error.relative:.1f} between students)"
         ),
-        template("mean of {decision.exercises} exercises:  attempts     G    Phi   score ±"),
+        template(
+            "mean of {decision.exercises} exercises:  attempts     G    Phi   score ±   intervals "
+            "of 95 %"
+        ),
         Each(
             "decision.rows",
-            "                      {attempts:9}  {g:4.2f}   {phi:4.2f}  {absolute_error:8.1f}",
+            "                      {attempts:9}  {g:4.2f}   {phi:4.2f}  {absolute_error:8.1f}"
+            "{g_interval:?   G {g_interval.lower:.2f} … {g_interval.upper:.2f}"
+            ", Phi {phi_interval.lower:.2f} … {phi_interval.upper:.2f}|}",
         ),
     ]
     if study is not None and study.sees_attempts:

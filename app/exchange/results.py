@@ -25,11 +25,13 @@ from app.exchange.errors import ExportError
 from app.exchange.moodle import MoodleChoice, moodle_text
 from app.scoring.competence import competence_words
 from app.scoring.conditions import comparison_groups
+from app.scoring.errors import ReliabilityError
 from app.session.accounts import Account
 from app.session.audit import note
 from app.session.board import ProgressBoard
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
+from app.session.reliability import agreement_document, course_reliability
 
 TIDY: Final = (
     "pseudonym",
@@ -164,8 +166,19 @@ def results_document(results: Results, progress: Progress | None = None) -> dict
         "exercises": [item.model_dump(mode="json") for item in results.board.items],
         "board": board_rows(results.board),
         "attempts": attempts,
+        "reliability": _reliability(results.board),
         "note": DISCLAIMER,
     }
+
+
+def _reliability(board: ProgressBoard) -> dict[str, Any] | None:
+    """Return how far the scores of a board can be relied on; None where that is not known."""
+    try:
+        result = course_reliability(board)
+    except ReliabilityError:
+        return None
+    agreement = [agreement_document(one) for one in result.agreement]
+    return {"decision": result.decision(), "agreement": agreement, "notes": list(result.notes)}
 
 
 def board_rows(board: ProgressBoard) -> list[dict[str, Any]]:

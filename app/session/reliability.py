@@ -34,6 +34,9 @@ from app.session.index import Indexed
 AT_MOST: Final = 5
 """So many attempts of a student at an exercise are taken, the newest."""
 
+COUNTS: Final = (1, 2, 3, 5, 8, 12)
+"""Numbers of attempts that G and Phi are told of."""
+
 
 @dataclass(frozen=True, slots=True)
 class ExerciseReliability:
@@ -116,6 +119,90 @@ class CourseReliability:
         """Return what other numbers of exercises and attempts would give."""
         return None if self.components is None else DecisionStudy(self.components)
 
+    def decision(self) -> dict[str, Any] | None:
+        """Return G and Phi as it was, and with other numbers of attempts; keys as in docs/json.md.
+
+        None where the attempts do not tell the components.
+        """
+        study, components = self.study, self.components
+        if study is None or components is None:
+            return None
+        exercises, occasions = components.exercises, components.occasions
+        counts = sorted({*COUNTS, occasions}) if study.sees_attempts else [1]
+        return {
+            "exercises": exercises,
+            "attempts": occasions,
+            "rows": [
+                {
+                    "attempts": count,
+                    "g": study.coefficient(exercises, count),
+                    "g_interval": _limits(study.interval(exercises, count)),
+                    "phi": study.coefficient(exercises, count, absolute=True),
+                    "phi_interval": _limits(study.interval(exercises, count, absolute=True)),
+                    "relative_error": study.standard_error(exercises, count, absolute=False),
+                    "absolute_error": study.standard_error(exercises, count),
+                }
+                for count in counts
+            ],
+            "attempts_for_g": study.attempts_for(exercises),
+            "attempts_for_phi": study.attempts_for(exercises, absolute=True),
+            "exercises_for_g": study.exercises_for(occasions),
+            "exercises_for_phi": study.exercises_for(occasions, absolute=True),
+            "score_error": {
+                "relative": study.standard_error(absolute=False),
+                "absolute": study.standard_error(),
+            },
+        }
+
+    def lines(self) -> tuple[str, ...]:
+        """Say it in a few lines, for a report and the board."""
+        study, components, lines = self.study, self.components, list[str]()
+        if study is not None and components is not None:
+            there = (components.exercises, components.occasions)
+            for name, absolute in (("G", False), ("Phi", True)):
+                lines.append(
+                    sentence(
+                        "{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} "
+                        "exercises with {attempts} attempts at each",
+                        name=name,
+                        coefficient=study.coefficient(*there, absolute),
+                        interval=_between(study.interval(*there, absolute)),
+                        meaning=sentence("how far it holds a student against a mark")
+                        if absolute
+                        else sentence("how far it ranks students"),
+                        exercises=there[0],
+                        attempts=there[1],
+                    )
+                )
+            lines.append(
+                sentence(
+                    "a single score is good to ± {error:.1f} points",
+                    error=study.standard_error(),
+                )
+            )
+        for one in self.agreement:
+            if one.form == "2,k":
+                lines.append(
+                    sentence(
+                        "ICC(2,k) {coefficient:.2f}{interval}: agreement of the exercises, of the "
+                        "{students} students who have them all",
+                        coefficient=one.value,
+                        interval=_between((one.lower, one.upper)),
+                        students=self.complete,
+                    )
+                )
+        return tuple(lines)
+
+
+def _limits(interval: tuple[float, float] | None) -> dict[str, float] | None:
+    return None if interval is None else {"lower": interval[0], "upper": interval[1]}
+
+
+def _between(interval: tuple[float, float] | None) -> str:
+    if interval is None:
+        return ""
+    return sentence(" ({lower:.2f} to {upper:.2f})", lower=interval[0], upper=interval[1])
+
 
 def agreement_document(agreement: Agreement) -> dict[str, Any]:
     """JSON-ready mapping of an intraclass correlation."""
@@ -174,6 +261,15 @@ def course_reliability(board: ProgressBoard, at_most: int = AT_MOST) -> CourseRe
         exercises=exercises,
         notes=tuple(notes),
     )
+
+
+def reliability_lines(board: ProgressBoard) -> tuple[str, ...]:
+    """Say how far the scores of a board can be relied on, or in one line why that is not known."""
+    try:
+        result = course_reliability(board)
+    except ReliabilityError as error:
+        return (sentence_of(error),)
+    return (*result.lines(), *result.notes)
 
 
 def _cube(

@@ -116,7 +116,7 @@ def summary_text(
     record = {"size": size, "modified_ns": modified_ns, "sha256": digest}
     document = summary.document() | {"record": record}
     document |= {"digest": _digest(document, this_station())}
-    return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+    return json.dumps(document, allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def cached(path: Path) -> Cached | None:

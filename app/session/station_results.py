@@ -188,11 +188,13 @@ def put_remarks(connection: Connection, rows: Iterable[SignedRemark]) -> None:
     """Keep signed remarks as the latest of their attempts, and let them be what is said."""
     from sqlalchemy.dialects.sqlite import insert
 
-    said, remarks = tables()[SIGNED_REMARKS], tables()["remarks"]
+    said, remarks, rows = tables()[SIGNED_REMARKS], tables()["remarks"], list(rows)
+    if rows:
+        put = insert(said)
+        newer = {name: put.excluded[name] for name in SignedRemark._fields}
+        put = put.on_conflict_do_update(["attempt", "kind"], set_=newer)
+        connection.execute(put, [one._asdict() for one in rows])
     for one in rows:
-        values = one._asdict()
-        put = insert(said).values(**values)
-        connection.execute(put.on_conflict_do_update(["attempt", "kind"], set_=values))
         value = {one.kind: one.value == "1" if one.kind == "released" else one.value}
         blank = {"comment": "", "void": "", "released": False} | value
         put = insert(remarks).values(attempt=one.attempt, **blank)

@@ -220,11 +220,11 @@ def put_stations(connection: Connection, key: StationKey, every: Iterable[KnownS
     """Write known stations, each sealed."""
     from sqlalchemy.dialects.sqlite import insert
 
-    table = tables()["stations"]
-    for one in every:
-        values = one.document() | {"seal": key.seal(_sealed(one))}
-        put = insert(table).values(**values)
-        connection.execute(put.on_conflict_do_update(["public"], set_=values))
+    put = insert(tables()["stations"])
+    rows = [one.document() | {"seal": key.seal(_sealed(one))} for one in every]
+    if rows:
+        newer = {name: put.excluded[name] for name in rows[0]}
+        connection.execute(put.on_conflict_do_update(["public"], set_=newer), rows)
 
 
 def revoke(station: str, people: People | None = None) -> KnownStation:

@@ -144,12 +144,13 @@ class TakingIn:
                 stones = tombstones(connection)
             sent = (stone for one in self.files for stone in one.manifest.tombstones)
             self.erased_keys = ErasedKeys({*stones, *sent})
+            gone = self.people.erased_attempts()
             for stage in stages.values():
                 stage.mkdir(mode=0o700)
             for number, one in enumerate(self.files):
                 self.current = one
                 share = progress.part(number / len(self.files), (number + 1) / len(self.files))
-                self._stage(stages, share)
+                self._stage(gone, stages, share)
             _sync(stages.values())
 
         with self.people.as_one(self.steps, undo, prepare) as (connection, write_names):
@@ -160,6 +161,9 @@ class TakingIn:
                 self.current = one
                 self._change(connection)
                 self._take_people(connection, here, after if names else {})
+            remarks = (remark for one in self.files for remark in one.manifest.remarks)
+            most = max((one.counter for one in remarks), default=0)
+            put_setting(connection, COUNTER, str(max(counter_of(connection), most)))
             self._erase(connection, set(here))
             gone = self.erased_keys
             after = {one: name for one, name in after.items() if not gone.of(owner_of(one))}
@@ -187,9 +191,8 @@ class TakingIn:
         return self.current.source
 
     # --- files ------------------------------------------------------------------------------------
-    def _stage(self, stages: Mapping[Path, Path], progress: Progress) -> None:
-        """Unpack and check what is missing here."""
-        gone = self.people.erased_attempts()
+    def _stage(self, gone: frozenset[str], stages: Mapping[Path, Path], progress: Progress) -> None:
+        """Unpack and check what is missing here, and is not `gone` with its person."""
         for number, one in enumerate(self.manifest.attempts):
             progress.report(number / len(self.manifest.attempts), one.attempt)
             self._stage_attempt(one, gone, stages[self.folder])
@@ -310,14 +313,12 @@ class TakingIn:
         """Write what is signed: tombstones, numbers and remarks."""
         from sqlalchemy.dialects.sqlite import insert
 
-        table = tables()[TOMBSTONES]
-        for stone in self.manifest.tombstones:
-            put = insert(table).values(**stone._asdict())
-            connection.execute(put.on_conflict_do_nothing())
-        for attempt in self.manifest.attempts:
-            if (one := self.counted.get(attempt.attempt)) is not None:
-                put = insert(tables()[COUNTED]).values(**one._asdict())
-                connection.execute(put.on_conflict_do_nothing())
+        stones = [stone._asdict() for stone in self.manifest.tombstones]
+        brought = [one.attempt for one in self.manifest.attempts if one.attempt in self.counted]
+        numbers = [self.counted[name]._asdict() for name in brought]
+        for table, rows in ((TOMBSTONES, stones), (COUNTED, numbers)):
+            if rows:
+                connection.execute(insert(tables()[table]).on_conflict_do_nothing(), rows)
         latest = signed_remarks(connection)
         later: dict[tuple[str, str], SignedRemark] = {}
         keys = {**self.known}
@@ -342,8 +343,6 @@ class TakingIn:
             else:
                 later[place] = remark
         put_remarks(connection, later.values())
-        most = max((one.counter for one in self.manifest.remarks), default=0)
-        put_setting(connection, COUNTER, str(max(counter_of(connection), most)))
         self.done = replace(self.done, remarks=self.done.remarks + len(later))
 
     def _take_people(

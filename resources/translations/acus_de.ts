@@ -1216,8 +1216,8 @@ a single score is good to ± {decision.score_error.absolute:.1f} points (± {dec
 eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte genau (± {decision.score_error.relative:.1f} zwischen Teilnehmern)</translation>
         </message>
         <message>
-            <source>mean of {decision.exercises} exercises:  attempts     G    Phi   score ±</source>
-            <translation type="unfinished">Mittel über {decision.exercises} Übungen:  Versuche     G    Phi  Punkte ±</translation>
+            <source>mean of {decision.exercises} exercises:  attempts     G    Phi   score ±   intervals of 95 %</source>
+            <translation type="unfinished">Mittel von {decision.exercises} Übungen:  Versuche     G    Phi   Punkte ±   Intervalle von 95 %</translation>
         </message>
         <message>
             <source>G 0.8 {decision.attempts_for_g:?by {decision.attempts_for_g:#1 attempt|# attempts}|by no number of attempts} at each of these exercises, Phi 0.8 {decision.attempts_for_phi:?by {decision.attempts_for_phi}|by none}</source>
@@ -8916,6 +8916,14 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">{effect} wird mit {model} berechnet</translation>
         </message>
         <message>
+            <source>Table of a sweep (*.parquet)</source>
+            <translation type="unfinished">Tabelle einer Reihe (*.parquet)</translation>
+        </message>
+        <message>
+            <source>Open a sweep</source>
+            <translation type="unfinished">Eine Reihe öffnen</translation>
+        </message>
+        <message>
             <source>Trying hard cases</source>
             <translation type="unfinished">Schwierige Fälle werden durchgerechnet</translation>
         </message>
@@ -9032,6 +9040,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">Schwierige Fälle</translation>
         </message>
         <message>
+            <source>Sweeps</source>
+            <translation type="unfinished">Reihen</translation>
+        </message>
+        <message>
             <source>Something is being measured: wait, or cancel it at the top</source>
             <translation type="unfinished">Es wird etwas gemessen: Warten Sie oder brechen Sie es oben ab</translation>
         </message>
@@ -9132,8 +9144,72 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">in {folder} kann nicht geschrieben werden: {why}</translation>
         </message>
         <message>
+            <source>Open a sweep…</source>
+            <translation type="unfinished">Eine Reihe öffnen…</translation>
+        </message>
+        <message>
+            <source>The table of `acus cohort sweep`, or one that is growing</source>
+            <translation type="unfinished">Die Tabelle von `acus cohort sweep`, auch eine, die noch wächst</translation>
+        </message>
+        <message>
+            <source>What `acus cohort sweep` has found, also while it works. Scripts, not people.</source>
+            <translation type="unfinished">Was `acus cohort sweep` gefunden hat, auch während es arbeitet. Skripte, keine Menschen.</translation>
+        </message>
+        <message>
+            <source>Attempts of the sweep</source>
+            <translation type="unfinished">Versuche der Reihe</translation>
+        </message>
+        <message>
+            <source>Over</source>
+            <translation type="unfinished">Über</translation>
+        </message>
+        <message>
+            <source>Apart by</source>
+            <translation type="unfinished">Getrennt nach</translation>
+        </message>
+        <message>
+            <source>Interval of 95 %</source>
+            <translation type="unfinished">Intervall von 95 %</translation>
+        </message>
+        <message>
+            <source>Means</source>
+            <translation type="unfinished">Mittelwerte</translation>
+        </message>
+        <message>
+            <source>one costs {seconds} s of a processor, a million {hours} h</source>
+            <translation type="unfinished">einer kostet {seconds} s eines Prozessors, eine Million {hours} h</translation>
+        </message>
+        <message>
             <source>Exercise</source>
             <translation type="unfinished">Übung</translation>
+        </message>
+        <message>
+            <source>Skill</source>
+            <translation type="unfinished">Können</translation>
+        </message>
+        <message>
+            <source>Tissue</source>
+            <translation type="unfinished">Gewebe</translation>
+        </message>
+        <message>
+            <source>Registration error [mm]</source>
+            <translation type="unfinished">Fehler der Registrierung [mm]</translation>
+        </message>
+        <message>
+            <source>Noise of the cameras (factor)</source>
+            <translation type="unfinished">Rauschen der Kameras (Faktor)</translation>
+        </message>
+        <message>
+            <source>Breathing [mm]</source>
+            <translation type="unfinished">Atmung [mm]</translation>
+        </message>
+        <message>
+            <source>Share that passes [%]</source>
+            <translation type="unfinished">Anteil, der besteht [%]</translation>
+        </message>
+        <message>
+            <source>Duration [s]</source>
+            <translation type="unfinished">Dauer [s]</translation>
         </message>
         <message>
             <source>Undo</source>
@@ -15718,6 +15794,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ergebnisse werden geschrieben</translation>
         </message>
         <message>
+            <source>How far scores can be relied on</source>
+            <translation type="unfinished">Wie weit man sich auf Punkte verlassen kann</translation>
+        </message>
+        <message>
+            <source>Intervals are of 95 %.</source>
+            <translation type="unfinished">Intervalle sind von 95 %.</translation>
+        </message>
+        <message>
             <source>Backup of Acus (*.acusbackup)</source>
             <translation type="unfinished">Sicherung von Acus (*.acusbackup)</translation>
         </message>
@@ -15815,6 +15899,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>List them: debrief, replay, remarks (Ctrl+Enter)</source>
             <translation type="unfinished">Auflisten: Nachbesprechung, Wiedergabe, Anmerkungen (Strg+Eingabe)</translation>
+        </message>
+        <message>
+            <source>How far scores can be relied on…</source>
+            <translation type="unfinished">Wie weit man sich auf Punkte verlassen kann…</translation>
+        </message>
+        <message>
+            <source>G, Phi, agreement</source>
+            <translation type="unfinished">G, Phi, Übereinstimmung</translation>
         </message>
         <message>
             <source>Form of the results</source>
@@ -16202,6 +16294,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>★ competent, ▼ relapse.</source>
             <translation type="unfinished">★ kompetent, ▼ Rückfall.</translation>
+        </message>
+        <message>
+            <source>Reliability (intervals of 95 %): {lines}</source>
+            <translation type="unfinished">Zuverlässigkeit (Intervalle von 95 %): {lines}</translation>
         </message>
         <message>
             <source>Place, date</source>
@@ -19919,6 +20015,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts of scripts, not people</source>
+            <translation>
+                <numerusform>{n} Versuch von Skripten, nicht von Menschen</numerusform>
+                <numerusform>{n} Versuche von Skripten, nicht von Menschen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch eines Teilnehmers ist für den Kursleiter: {variable} enthält das Passwort</numerusform>
@@ -20014,6 +20117,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Lücke fehlender Schichten leer gelassen</numerusform>
                 <numerusform>{n} Lücken fehlender Schichten leer gelassen</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} have no score and are in no mean</source>
+            <translation>
+                <numerusform>{n} hat keine Punkte und ist in keinem Mittelwert</numerusform>
+                <numerusform>{n} haben keine Punkte und sind in keinem Mittelwert</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -21945,6 +22055,30 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{name!r} does not count (void, no score, a drill, or not this station's): delete the row</source>
             <translation type="unfinished">{name!r} zählt nicht (ungültig, ohne Punkte, ein Drill oder nicht von dieser Station): Löschen Sie die Zeile</translation>
+        </message>
+        <message>
+            <source>{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} exercises with {attempts} attempts at each</source>
+            <translation type="unfinished">{name} {coefficient:.2f}{interval}: {meaning}, für ein Mittel von {exercises} Übungen mit je {attempts} Versuchen</translation>
+        </message>
+        <message>
+            <source>how far it holds a student against a mark</source>
+            <translation type="unfinished">wie weit es jemanden an einer Bestehensgrenze misst</translation>
+        </message>
+        <message>
+            <source>how far it ranks students</source>
+            <translation type="unfinished">wie weit es Studierende ordnet</translation>
+        </message>
+        <message>
+            <source>a single score is good to ± {error:.1f} points</source>
+            <translation type="unfinished">ein einzelnes Ergebnis ist auf ± {error:.1f} Punkte genau</translation>
+        </message>
+        <message>
+            <source>ICC(2,k) {coefficient:.2f}{interval}: agreement of the exercises, of the {students} students who have them all</source>
+            <translation type="unfinished">ICC(2,k) {coefficient:.2f}{interval}: Übereinstimmung der Übungen, von den {students} Studierenden, die alle haben</translation>
+        </message>
+        <message>
+            <source> ({lower:.2f} to {upper:.2f})</source>
+            <translation type="unfinished"> ({lower:.2f} bis {upper:.2f})</translation>
         </message>
         <message>
             <source>{attempts} attempts were left out: scripts, not people</source>
@@ -23945,6 +24079,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
             <translation>Kippung der Gantry: + neigt die Vorderseite der Schichten zum Kopf. Schichten, und was von der Nadel in ihnen liegt, gehen mit</translation>
+        </message>
+        <message>
+            <source>{path} is no table of a sweep, and no part of one lies beside it: choose what `acus cohort sweep --out` wrote, or is writing</source>
+            <translation type="unfinished">{path} ist keine Tabelle einer Reihe, und kein Teil davon liegt daneben: wählen Sie, was `acus cohort sweep --out` geschrieben hat oder schreibt</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read as a table of a sweep: {reason}</source>
+            <translation type="unfinished">{path} lässt sich nicht als Tabelle einer Reihe lesen: {reason}</translation>
+        </message>
+        <message>
+            <source>{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one</source>
+            <translation type="unfinished">{path} ist keine Tabelle einer Reihe (ohne {columns}): `acus cohort sweep` schreibt eine</translation>
         </message>
     </context>
 </TS>

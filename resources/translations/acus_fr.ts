@@ -1216,8 +1216,8 @@ a single score is good to ± {decision.score_error.absolute:.1f} points (± {dec
 un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {decision.score_error.relative:.1f} entre étudiants)</translation>
         </message>
         <message>
-            <source>mean of {decision.exercises} exercises:  attempts     G    Phi   score ±</source>
-            <translation type="unfinished">moyenne de {decision.exercises} exercices :  essais    G    Phi   score ±</translation>
+            <source>mean of {decision.exercises} exercises:  attempts     G    Phi   score ±   intervals of 95 %</source>
+            <translation type="unfinished">moyenne de {decision.exercises} exercices :  essais     G    Phi   score ±   intervalles à 95 %</translation>
         </message>
         <message>
             <source>G 0.8 {decision.attempts_for_g:?by {decision.attempts_for_g:#1 attempt|# attempts}|by no number of attempts} at each of these exercises, Phi 0.8 {decision.attempts_for_phi:?by {decision.attempts_for_phi}|by none}</source>
@@ -8916,6 +8916,14 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">{effect} est calculé par {model}</translation>
         </message>
         <message>
+            <source>Table of a sweep (*.parquet)</source>
+            <translation type="unfinished">Tableau d’un balayage (*.parquet)</translation>
+        </message>
+        <message>
+            <source>Open a sweep</source>
+            <translation type="unfinished">Ouvrir un balayage</translation>
+        </message>
+        <message>
             <source>Trying hard cases</source>
             <translation type="unfinished">Essai des cas difficiles</translation>
         </message>
@@ -9032,6 +9040,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">Cas difficiles</translation>
         </message>
         <message>
+            <source>Sweeps</source>
+            <translation type="unfinished">Balayages</translation>
+        </message>
+        <message>
             <source>Something is being measured: wait, or cancel it at the top</source>
             <translation type="unfinished">Une mesure est en cours : attendez, ou annulez-la en haut</translation>
         </message>
@@ -9132,8 +9144,72 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">impossible d’écrire dans {folder} : {why}</translation>
         </message>
         <message>
+            <source>Open a sweep…</source>
+            <translation type="unfinished">Ouvrir un balayage…</translation>
+        </message>
+        <message>
+            <source>The table of `acus cohort sweep`, or one that is growing</source>
+            <translation type="unfinished">Le tableau de `acus cohort sweep`, ou un tableau qui grandit</translation>
+        </message>
+        <message>
+            <source>What `acus cohort sweep` has found, also while it works. Scripts, not people.</source>
+            <translation type="unfinished">Ce que `acus cohort sweep` a trouvé, même pendant qu’il travaille. Des scripts, pas des personnes.</translation>
+        </message>
+        <message>
+            <source>Attempts of the sweep</source>
+            <translation type="unfinished">Essais du balayage</translation>
+        </message>
+        <message>
+            <source>Over</source>
+            <translation type="unfinished">Selon</translation>
+        </message>
+        <message>
+            <source>Apart by</source>
+            <translation type="unfinished">Séparé par</translation>
+        </message>
+        <message>
+            <source>Interval of 95 %</source>
+            <translation type="unfinished">Intervalle à 95 %</translation>
+        </message>
+        <message>
+            <source>Means</source>
+            <translation type="unfinished">Moyennes</translation>
+        </message>
+        <message>
+            <source>one costs {seconds} s of a processor, a million {hours} h</source>
+            <translation type="unfinished">un essai coûte {seconds} s d’un processeur, un million {hours} h</translation>
+        </message>
+        <message>
             <source>Exercise</source>
             <translation type="unfinished">Exercice</translation>
+        </message>
+        <message>
+            <source>Skill</source>
+            <translation type="unfinished">Habileté</translation>
+        </message>
+        <message>
+            <source>Tissue</source>
+            <translation type="unfinished">Tissu</translation>
+        </message>
+        <message>
+            <source>Registration error [mm]</source>
+            <translation type="unfinished">Erreur de recalage [mm]</translation>
+        </message>
+        <message>
+            <source>Noise of the cameras (factor)</source>
+            <translation type="unfinished">Bruit des caméras (facteur)</translation>
+        </message>
+        <message>
+            <source>Breathing [mm]</source>
+            <translation type="unfinished">Respiration [mm]</translation>
+        </message>
+        <message>
+            <source>Share that passes [%]</source>
+            <translation type="unfinished">Part qui réussit [%]</translation>
+        </message>
+        <message>
+            <source>Duration [s]</source>
+            <translation type="unfinished">Durée [s]</translation>
         </message>
         <message>
             <source>Undo</source>
@@ -15718,6 +15794,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Écriture des résultats</translation>
         </message>
         <message>
+            <source>How far scores can be relied on</source>
+            <translation type="unfinished">Jusqu’où se fier aux scores</translation>
+        </message>
+        <message>
+            <source>Intervals are of 95 %.</source>
+            <translation type="unfinished">Les intervalles sont à 95 %.</translation>
+        </message>
+        <message>
             <source>Backup of Acus (*.acusbackup)</source>
             <translation type="unfinished">Sauvegarde d’Acus (*.acusbackup)</translation>
         </message>
@@ -15815,6 +15899,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>List them: debrief, replay, remarks (Ctrl+Enter)</source>
             <translation type="unfinished">Les lister : débriefing, relecture, remarques (Ctrl+Entrée)</translation>
+        </message>
+        <message>
+            <source>How far scores can be relied on…</source>
+            <translation type="unfinished">Jusqu’où se fier aux scores…</translation>
+        </message>
+        <message>
+            <source>G, Phi, agreement</source>
+            <translation type="unfinished">G, Phi, concordance</translation>
         </message>
         <message>
             <source>Form of the results</source>
@@ -16202,6 +16294,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>★ competent, ▼ relapse.</source>
             <translation type="unfinished">★ compétent, ▼ rechute.</translation>
+        </message>
+        <message>
+            <source>Reliability (intervals of 95 %): {lines}</source>
+            <translation type="unfinished">Fiabilité (intervalles à 95 %) : {lines}</translation>
         </message>
         <message>
             <source>Place, date</source>
@@ -19919,6 +20015,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts of scripts, not people</source>
+            <translation>
+                <numerusform>{n} essai de scripts, pas de personnes</numerusform>
+                <numerusform>{n} essais de scripts, pas de personnes</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts of students are for the instructor: {variable} holds the password</source>
             <translation type="unfinished">
                 <numerusform>{n} essai d’étudiant est réservé au formateur : {variable} contient le mot de passe</numerusform>
@@ -20014,6 +20117,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} lacune de coupes manquantes laissée vide</numerusform>
                 <numerusform>{n} lacunes de coupes manquantes laissées vides</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} have no score and are in no mean</source>
+            <translation>
+                <numerusform>{n} n’a pas de score et n’entre dans aucune moyenne</numerusform>
+                <numerusform>{n} n’ont pas de score et n’entrent dans aucune moyenne</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -21945,6 +22055,30 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{name!r} does not count (void, no score, a drill, or not this station's): delete the row</source>
             <translation type="unfinished">{name!r} ne compte pas (nul, sans score, un exercice partiel, ou pas de ce poste) : supprimez la ligne</translation>
+        </message>
+        <message>
+            <source>{name} {coefficient:.2f}{interval}: {meaning}, of a mean of {exercises} exercises with {attempts} attempts at each</source>
+            <translation type="unfinished">{name} {coefficient:.2f}{interval} : {meaning}, pour une moyenne de {exercises} exercices avec {attempts} essais chacun</translation>
+        </message>
+        <message>
+            <source>how far it holds a student against a mark</source>
+            <translation type="unfinished">jusqu’où il compare quelqu’un à un seuil</translation>
+        </message>
+        <message>
+            <source>how far it ranks students</source>
+            <translation type="unfinished">jusqu’où il classe les étudiants</translation>
+        </message>
+        <message>
+            <source>a single score is good to ± {error:.1f} points</source>
+            <translation type="unfinished">un score isolé est précis à ± {error:.1f} points</translation>
+        </message>
+        <message>
+            <source>ICC(2,k) {coefficient:.2f}{interval}: agreement of the exercises, of the {students} students who have them all</source>
+            <translation type="unfinished">ICC(2,k) {coefficient:.2f}{interval} : concordance des exercices, des {students} étudiants qui les ont tous</translation>
+        </message>
+        <message>
+            <source> ({lower:.2f} to {upper:.2f})</source>
+            <translation type="unfinished"> ({lower:.2f} à {upper:.2f})</translation>
         </message>
         <message>
             <source>{attempts} attempts were left out: scripts, not people</source>
@@ -23945,6 +24079,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
             <translation>Inclinaison du statif : + penche l’avant des coupes vers la tête. Les coupes, et ce qui y est de l’aiguille, suivent</translation>
+        </message>
+        <message>
+            <source>{path} is no table of a sweep, and no part of one lies beside it: choose what `acus cohort sweep --out` wrote, or is writing</source>
+            <translation type="unfinished">{path} n’est pas le tableau d’un balayage, et aucune partie n’est à côté : choisissez ce que `acus cohort sweep --out` a écrit ou écrit</translation>
+        </message>
+        <message>
+            <source>{path} cannot be read as a table of a sweep: {reason}</source>
+            <translation type="unfinished">{path} ne peut pas être lu comme tableau d’un balayage : {reason}</translation>
+        </message>
+        <message>
+            <source>{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one</source>
+            <translation type="unfinished">{path} n’est pas le tableau d’un balayage (sans {columns}) : `acus cohort sweep` en écrit un</translation>
         </message>
     </context>
 </TS>

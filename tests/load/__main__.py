@@ -1,62 +1,71 @@
 """Let many stations work at one store while everything breaks, and compare what they end with.
 
-Run as `make load` or `python -m tests.load [--stations N] [--attempts N] [--seed S]`. Stations are
-programs of their own; they are killed at any moment, so is PostgreSQL; the line between is cut and
-stalls; clocks are off by up to a day; the database is put back to an older state once; students are
-erased. Then everybody meets the store in peace, and it is asked: is every attempt there once and
-nowhere twice, is who was erased gone, hold the limits, and do all stations say the same.
+Run as `make load` or `python -m tests.load [--stations N] [--attempts N] [--seed S]
+[--seconds N]`. Stations are programs of their own; they are killed at any moment, so is PostgreSQL;
+the line between is cut and stalls; clocks are off by up to a day; the database is put back to an
+older state once; students are erased. Then everybody meets the store in peace, and it is asked: is
+every attempt there once and nowhere twice, is who was erased gone, hold the limits, and do all
+stations say the same.
 """
 
 import argparse
 import json
+import multiprocessing
 import random
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from pathlib import Path
+
+from tests.load.station import serve
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "session"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+COPIES = multiprocessing.get_context("forkserver")
+COPIES.set_forkserver_preload(["tests.load.station"])
+
 
 class StationProgram:
-    """A station in a process of its own, begun again whenever it was killed."""
+    """A station in a process of its own, begun again whenever it was killed.
 
-    def __init__(self, root: Path, pool: Path, url: str, offset: float) -> None:
-        self.root, self.offset, self.recorded = root, offset, {}
-        self._command = [
-            sys.executable, "-m", "tests.load.station", str(root), str(pool), url, str(offset)
-        ]  # fmt: skip
-        self._process: subprocess.Popen[str] | None = None
+    Processes are copies of one that has read the program already, so that fifty of them fit into a
+    small computer.
+    """
+
+    def __init__(self, root: Path, pool: Path, url: str, offset: float, seconds: float) -> None:
+        self.root = root
+        self._given = (root, pool, url, offset, seconds)
+        self._process: BaseProcess | None = None
+        self._line: Connection | None = None
 
     def ask(self, line: str, killed_after: float = 0.0) -> dict | None:
         """Return its answer; None where it was killed."""
         if self._process is None:
-            self._process = subprocess.Popen(
-                self._command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-            )
-        process = self._process
-        process.stdin.write(line + "\n")
-        process.stdin.flush()
+            self._line, theirs = COPIES.Pipe()
+            self._process = COPIES.Process(target=serve, args=(*self._given, theirs), daemon=True)
+            self._process.start()
+            theirs.close()
+        self._line.send(line)
         if killed_after:
             time.sleep(killed_after)
             self.kill()
             return None
-        answer = process.stdout.readline()
-        if not answer:
-            raise SystemExit(f"{self.root.name} died of {line!r}")
-        return json.loads(answer)
+        try:
+            return self._line.recv()
+        except EOFError:
+            raise SystemExit(f"{self.root.name} died of {line!r}") from None
 
     def kill(self) -> None:
         if self._process is not None:
             self._process.kill()
-            self._process.wait()
-            self._process.stdin.close()
-            self._process.stdout.close()
+            self._process.join()
+            self._line.close()
             self._process = None
 
 
@@ -73,6 +82,7 @@ def main() -> int:
     parser.add_argument("--stations", type=int, default=50)
     parser.add_argument("--attempts", type=int, default=20, help="of each station")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seconds", type=float, default=5.0, help="to wait for the store")
     asked = parser.parse_args()
     rng = random.Random(asked.seed)
     root = Path(tempfile.mkdtemp(prefix="acus-load-"))
@@ -99,7 +109,9 @@ def _run(asked, rng, root, home, made, server, proxy, url, program) -> int:
 
     names = ["head", *(f"s{number:02d}" for number in range(1, asked.stations))]
     day = 86400.0
-    stations = [program(root / name, home, url, rng.uniform(-day, day)) for name in names]
+    stations = [
+        program(root / name, home, url, rng.uniform(-day, day), asked.seconds) for name in names
+    ]
     head = stations[0]
     store = SchoolStore(server.url())
     store.open()
@@ -160,6 +172,7 @@ def _run(asked, rng, root, home, made, server, proxy, url, program) -> int:
     proxy.behave("pass")
     whole = {}
     for one in stations:
+        one.ask("settle")  # a kill in the middle of an erasure leaves a record without signature
         whole |= records_of(one)
     print(f"{len(whole)} attempts lie at the stations; all meet the store in peace", flush=True)
     own = {}
@@ -190,6 +203,10 @@ def _run(asked, rng, root, home, made, server, proxy, url, program) -> int:
     gone = [key for key in students if key not in first["people"]]
     wanted = {name for name, student in own.items() if student not in gone}
     said = {"all stations say the same": all(one == first for one in stored)}
+    for station, one in zip(stations, stored, strict=True):
+        for name in (name for name in first if one[name] != first[name]):
+            apart = [set(map(str, some)) for some in (first[name], one[name])]
+            print(f"{station.root.name} differs from head in {name}: {sorted(apart[0] ^ apart[1])}")
     said["no attempt is lost or doubled"] = set(first["attempts"]) == wanted
     said["who is erased is gone"] = len(gone) == 1
     counted = {}

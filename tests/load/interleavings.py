@@ -107,6 +107,7 @@ def one_order(job: tuple[str, int]) -> str:
     try:
         shutil.copytree(Path(root) / "begin", home / "s")
         os.environ["ACUS_DATA"] = str(home / "s" / "data")
+        os.sync = lambda: None  # it waits for the disks of everybody; nothing here is on any
         people, folder = People(), home / "s" / "records"
         order = list(packets(root)) + rng.choices(packets(root), k=rng.randrange(4))
         rng.shuffle(order)

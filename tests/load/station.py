@@ -1,42 +1,63 @@
-"""One station as a program of its own: told on its input what to do, killed at any moment.
+"""One station as a program of its own: told what to do by a line, killed at any moment.
 
-Run as `python -m tests.load.station ROOT POOL URL OFFSET`; each line of the input is `record KEY`,
-`say`, `void`, `erase NAME`, `sync`, `stored` or `key`; each answer is a line of JSON.
+Each question is `record KEY`, `say TEXT`, `void`, `erase NAME`, `sync`, `sync trust`, `settle`
+or `stored`; each answer is a mapping.
 """
 
 import hashlib
 import json
 import os
-import sys
 import time
+from multiprocessing.connection import Connection
 from pathlib import Path
 
+import cryptography.hazmat.primitives.asymmetric.ed25519  # noqa: F401 - read once, for all copies
+import psycopg  # noqa: F401
+import sqlalchemy.dialects.postgresql
+import sqlalchemy.dialects.sqlite  # noqa: F401
 
-def main() -> int:
-    root, pool, url, offset = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], float(sys.argv[4])
+from app.core.errors import AcusError
+from app.session.erasing import erase_person
+from app.session.people import People
+from app.session.school_store import StorePlace, synchronise
+from app.session.sidecar import fresh_kept, write_summary
+from app.session.signature import _document, signature_file, signature_text
+from app.session.station import StationKey
+from app.session.stations import set_name
+from app.session.store import settled
+
+
+def serve(
+    root: Path, pool: Path, url: str, offset: float, seconds: float, line: Connection
+) -> None:
+    """Answer what is asked until nobody asks any more.
+
+    Args:
+        root: of the station.
+        pool: with records that were made once.
+        url: of the store.
+        offset: by which its clock is off [s].
+        seconds: to wait for the store.
+        line: to whom asks.
+    """
     os.environ["ACUS_DATA"] = str(root / "data")
     real = time.time
-    time.time = lambda: real() + offset  # a clock that is off
-    from app.core.errors import AcusError
-
-    station = Station(root, pool, url)
-    for line in sys.stdin:
-        what, *arguments = line.split()
+    time.time = lambda: real() + offset
+    station = Station(root, pool, url, seconds)
+    while True:
+        try:
+            what, *arguments = line.recv().split()
+        except EOFError:
+            return
         try:
             answer = getattr(station, what)(*arguments)
         except AcusError as error:
             answer = {"error": str(error)}
-        print(json.dumps(answer), flush=True)
-    return 0
+        line.send(answer)
 
 
 class Station:
-    def __init__(self, root: Path, pool: Path, url: str) -> None:
-        from app.session.people import People
-        from app.session.school_store import StorePlace
-        from app.session.station import StationKey
-        from app.session.stations import set_name
-
+    def __init__(self, root: Path, pool: Path, url: str, seconds: float) -> None:
         self.name, self.folder = root.name, root / "records"
         self.folder.mkdir(parents=True, exist_ok=True)
         self.people, self.key = People(), StationKey.of()
@@ -44,14 +65,11 @@ class Station:
             set_name(self.name)
         made = json.loads((pool / "records.json").read_text())
         self.pool = {key: [Path(name) for name in some] for key, some in made.items()}
-        self.place = StorePlace(url, gives_course=self.name == "head", pins=True, seconds=5.0)
+        self.place = StorePlace(url, gives_course=self.name == "head", pins=True, seconds=seconds)
         self.summaries: dict[Path, object] = {}
 
     def record(self, student: str) -> dict[str, object]:
         """Leave a finished, signed attempt, whole or not at all."""
-        from app.session.sidecar import fresh_kept, write_summary
-        from app.session.signature import _document, signature_file, signature_text
-
         number = len(list(self.folder.glob("*.mcap")))
         source = self.pool[student][number % 3]
         path = self.folder / f"{self.name}-{number:05d}-{os.urandom(3).hex()}.mcap"
@@ -83,14 +101,10 @@ class Station:
         return {"of": len(some)}
 
     def erase(self, name: str) -> dict[str, object]:
-        from app.session.erasing import erase_person
-
         done = erase_person(name, self.folder, delete_records=True, people=self.people)
         return {"deleted": done.deleted}
 
     def sync(self, trust: str = "") -> dict[str, object]:
-        from app.session.school_store import synchronise
-
         begun = time.monotonic()
         done = synchronise(self.place, self.folder, self.people, trust=bool(trust))
         return {
@@ -101,6 +115,11 @@ class Station:
             "unknown": len(done.unknown),
             "seconds": time.monotonic() - begun,
         }
+
+    def settle(self) -> dict[str, object]:
+        """End what a kill has cut off, as the next look at the folder does."""
+        settled(self.folder)
+        return {"people": len(self.people.everybody())}
 
     def stored(self) -> dict[str, object]:
         """Return what all stations must agree on."""
@@ -121,7 +140,3 @@ class Station:
             "excess": sorted(name for name, one in said.items() if one.excess),
             "people": sorted(one.key for one in self.people.everybody()),
         }
-
-
-if __name__ == "__main__":
-    sys.exit(main())

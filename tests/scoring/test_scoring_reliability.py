@@ -252,3 +252,63 @@ def test_components_of_any_cube_are_finite_and_not_below_0_or_refused(values: Fl
     for absolute in (False, True):
         assert 0.0 <= study.coefficient(3, 2, absolute) <= 1.0
         assert np.isfinite(study.standard_error(absolute=absolute))
+
+
+PARTED = [table for table in R["icc"] if table["value"][5] > 0.0]
+
+
+@pytest.mark.parametrize("table", PARTED, ids=lambda table: table["source"])
+def test_an_interval_of_g_over_exercises_alone_is_that_of_icc_3_k_in_psych(
+    table: dict[str, Any],
+) -> None:
+    """With one attempt each G of k exercises is ICC(3,k), whose F interval is exact."""
+    points = np.array(table["points"], dtype=float)
+    study = DecisionStudy(variance_components(ScoreCube(points[:, :, None])))
+    for exercises, form in ((points.shape[1], 5), (1, 2)):
+        wanted = (table["lower"][form], table["upper"][form])
+        assert study.interval(exercises, 1) == pytest.approx(wanted, abs=0.005)
+
+
+def crossed(rng: np.random.Generator, **sds: float) -> FloatArray:
+    """Draw points of 20 students, 4 exercises and 3 attempts; `sds` by the axes that they have."""
+    shape = {"s": 20, "e": 4, "o": 3}
+    points = np.full(tuple(shape.values()), 50.0)
+    for axes, sd in sds.items():
+        own = tuple(count if axis in axes else 1 for axis, count in shape.items())
+        points = points + rng.normal(0.0, sd, own)
+    return points
+
+
+@pytest.mark.long("statistics")
+def test_intervals_of_g_and_phi_hold_what_is_true_in_95_of_100_studies_or_more() -> None:
+    sds = {"s": 8.0, "e": 4.0, "o": 2.0, "se": 5.0, "so": 2.0, "eo": 1.0, "seo": 7.0}
+    relative = 25.0 / 4 + 4.0 / 3 + 49.0 / 12
+    true = {False: 64.0 / (64.0 + relative)}
+    true[True] = 64.0 / (64.0 + relative + 16.0 / 4 + 4.0 / 3 + 1.0 / 12)
+    rng, held, times = np.random.default_rng(3), {False: 0, True: 0}, 400
+    for _ in range(times):
+        study = DecisionStudy(variance_components(ScoreCube(crossed(rng, **sds))))
+        for absolute, value in true.items():
+            low, high = study.interval(4, 3, absolute) or (1.0, 0.0)
+            held[absolute] += low <= value <= high
+    assert min(held.values()) >= 0.93 * times  # three standard errors below 0.95 are 0.917
+    assert max(held.values()) < times
+
+
+def test_one_empty_cell_leaves_the_interval_of_g_where_it_was() -> None:
+    """The two ways share no formula: mean squares here, curvature of the likelihood there."""
+    points = crossed(np.random.default_rng(5), s=9.0, e=4.0, se=5.0, o=2.0, seo=5.0)
+    whole = DecisionStudy(variance_components(ScoreCube(points)))
+    points[3, 1, 2] = np.nan
+    less = DecisionStudy(variance_components(ScoreCube(points)))
+    assert (whole.components.estimator, less.components.estimator) == ("anova", "reml")
+    assert less.interval(4, 3) == pytest.approx(whole.interval(4, 3), abs=0.05)
+
+
+def test_an_interval_holds_its_estimate_and_is_within_0_and_1() -> None:
+    for table in R["icc"]:
+        points = np.array(table["points"], dtype=float)
+        study = DecisionStudy(variance_components(ScoreCube(points[:, :, None])))
+        for absolute in (False, True):
+            low, high = study.interval(2, 1, absolute) or (1.0, 0.0)
+            assert 0.0 <= low <= study.coefficient(2, 1, absolute) <= high <= 1.0

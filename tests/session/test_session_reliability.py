@@ -17,7 +17,7 @@ from app.session.board import ProgressBoard, progress_board
 from app.session.course import CourseItem
 from app.session.index import Index, Indexed
 from app.session.people import People, Person, Remarks
-from app.session.reliability import course_reliability
+from app.session.reliability import course_reliability, reliability_lines
 
 PEOPLE = [Person(f"p{n}", f"S{n}") for n in range(8)]
 EXERCISES = ("ribs", "kidney", "liver")
@@ -188,3 +188,14 @@ def test_the_command_prints_a_table_and_the_same_as_json(
     assert all(name in table for name in EXERCISES)
     assert "students with points: 0" in acus("results", "reliability", "--group", "none", code=2)
     assert len(People().everybody()) == 8
+
+
+def test_what_a_report_says_of_reliability_has_intervals_and_where_there_is_none_the_reason() -> (
+    None
+):
+    lines = reliability_lines(board(attempts(drawn())))
+    assert [line.split(" ")[0] for line in lines] == ["G", "Phi", "a", "ICC(2,k)"]
+    assert all("(0." in line for line in (*lines[:2], lines[3]))
+    assert reliability_lines(board(attempts(drawn()), PEOPLE[:1])) == (
+        "students with points: 1; reliability needs 2 students at least: take in more",
+    )

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication, QToolButton
 from views_exercise_fakes import snapshot, statistics
 from window_rig import plan
 
+from app.research.sweep_table import SweepTable
 from app.session.machine import State
 from app.session.snapshot import BreathHold
 from app.studies.findings import Findings, Sheet
@@ -23,6 +24,7 @@ from app.views.accuracy.diagram import Diagram
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.accuracy.page import AccuracyPage, share_words
 from app.views.accuracy.panel import EffectsPanel
+from app.views.accuracy.sweep_tab import SweepTab, measure_words
 
 DEAR = EffectCost("a", "Dear", "fine", {"fine": "", "rough": ""}, {"fine": 9e-4, "rough": 1e-6}, "")
 CHEAP = EffectCost("b", "Cheap", "one", {"one": "only"}, {"one": 1e-7}, "")
@@ -262,3 +264,63 @@ def test_four_ways_of_a_study_are_seen_in_a_low_window(window, settle) -> None:
         ways = feature.page.ways
         last = min(4, ways.rowCount()) - 1
         assert ways.visualItemRect(ways.item(last, 0)).bottom() <= ways.viewport().height(), name
+
+
+def sweep_of(attempts, wanted=None):
+    """A sweep of two skills over registration errors; `attempts` of each condition."""
+    rows = [
+        {"exercise": "liver-01", "version": 1, "skill": skill, "registration_error_mm": error,
+         "seed": seed, "total": total - 4.0 * error + seed, "passed": total - 4.0 * error > 60.0,
+         "duration_s": 20.0}
+        for skill, total in (("expert", 90.0), ("novice", 65.0))
+        for error in (0.0, 2.0, 5.0)
+        for seed in range(attempts)
+    ]  # fmt: skip
+    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    return SweepTable(columns, wanted is None, wanted, 1.44)
+
+
+def marked(tab):
+    """Return where the marks of each line stand along the axis."""
+    lines = [one for one in tab.plot.getPlotItem().items if isinstance(one, pg.PlotDataItem)]
+    return [list(one.getData()[0]) for one in lines if one.opts["symbol"]]
+
+
+def test_a_sweep_is_drawn_along_what_was_varied_and_keeps_what_was_chosen(application):
+    tab = SweepTab()
+    tab.show_sweep(sweep_of(2, wanted=48))
+    assert not tab.grown.isHidden()
+    assert (tab.grown.value(), tab.grown.maximum()) == (12, 48)
+    tab.measure.setCurrentIndex(tab.measure.findData("passed"))
+    tab.over.setCurrentIndex(tab.over.findData("registration_error_mm"))
+    tab.apart.setCurrentIndex(tab.apart.findData("skill"))
+    tab.show_sweep(sweep_of(8))
+    assert tab.grown.isHidden()
+    assert tab.measure.currentData() == "passed"
+    assert [tab.means.item(row, 2).text() for row in range(6)] == ["8"] * 6
+    assert [tab.means.item(row, 3).text() for row in range(6)] == [
+        "100",
+        "100",
+        "100",
+        "100",
+        "0",
+        "0",
+    ]
+    assert marked(tab) == [[0.0, 2.0, 5.0]] * 2
+    assert "48 attempts of scripts, not people" in tab.summary.text()
+    assert "one costs 1.44 s of a processor, a million 400 h" in tab.summary.text()
+    assert "expert" in tab.series.text()
+
+
+def test_texts_stand_on_the_axis_one_after_another(application):
+    tab = SweepTab()
+    tab.show_sweep(sweep_of(2))
+    assert tab.over.currentData() == "skill"
+    assert marked(tab) == [[0.0, 1.0]]
+    assert [tab.means.item(row, 1).text() for row in range(2)] == ["expert", "novice"]
+
+
+def test_a_metric_is_called_as_everywhere_with_its_unit_and_another_column_by_its_name():
+    assert measure_words("value_target_error").endswith(" [mm]")
+    assert "_" not in measure_words("value_target_error")
+    assert measure_words("value_of_somebody") == "value_of_somebody"

@@ -1,7 +1,10 @@
 """Reports of a group and of a student: pages of a PDF, with everybody on them once."""
 
 import datetime
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 
 import pytest
@@ -276,3 +279,17 @@ def test_a_student_s_report_names_course_venue_and_dates_and_can_be_signed(drawn
     for wanted in ("Autumn", "Basel, Theatre 2", "2026-10-01 to 2026-10-03", "Place, date"):
         assert wanted in words, wanted
     assert words.count("Instructor") == words.count("Student") == 1
+
+
+def test_a_report_by_command_is_in_the_language_of_its_reader(tmp_path):
+    script = """
+import sys
+from pathlib import Path
+from app.views.kit.text import tr
+from app.views.people.results_report import write_report
+write_report(Path(sys.argv[1]), lambda: tr("Report of a group").encode())
+"""
+    place = {"LC_ALL": "de_DE.UTF-8", "ACUS_DATA": str(tmp_path), "QT_QPA_PLATFORM": "offscreen"}
+    command = [sys.executable, "-c", script, str(tmp_path / "report.pdf")]
+    subprocess.run(command, check=True, env=os.environ | place, timeout=120)
+    assert (tmp_path / "report.pdf").read_text() == "Bericht einer Gruppe"

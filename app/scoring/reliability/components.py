@@ -14,11 +14,11 @@ student at an exercise, so that what all learn from one to the next is the occas
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import combinations
 from types import MappingProxyType
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.scoring.errors import ReliabilityError
 from app.scoring.reliability.icc import NO_VARIANCE
-from app.scoring.reliability.reml import RandomEffect, reml
+from app.scoring.reliability.reml import DRAWS, RandomEffect, reml
 
 STUDENT: Final = "student"
 EXERCISE: Final = "exercise"
@@ -34,6 +34,8 @@ OCCASION: Final = "occasion"
 RESIDUAL: Final = "residual"
 FACETS: Final = (STUDENT, EXERCISE, OCCASION)
 """Axes of a cube."""
+
+_SEED: Final = 1993
 
 
 class Estimator(StrEnum):
@@ -107,6 +109,10 @@ class VarianceComponents:
         variances: by name, in points², none below 0: `student`, `exercise`, `occasion`, pairs as
             `student:exercise`, and `residual`; those of facets of one level are not there.
         below_zero: names whose closed form was below 0.
+        draws: by name what the components may be as well, shape (DRAWS,), but for a common factor:
+            generalised pivotal quantities of the mean squares (Weerahandi 1993, JASA 88, 899-905;
+            Burdick, Borror and Montgomery 2005, chapter 3), or drawn by the curvature of the
+            restricted likelihood; empty where that has none.
     """
 
     students: int
@@ -116,6 +122,7 @@ class VarianceComponents:
     estimator: Estimator
     variances: Mapping[str, float]
     below_zero: tuple[str, ...] = ()
+    draws: Mapping[str, FloatArray] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def total(self) -> float:
@@ -137,10 +144,10 @@ def variance_components(cube: ScoreCube) -> VarianceComponents:
     values = _without_empty(cube.values)
     facets = [name for name, count in zip(FACETS, values.shape, strict=True) if count > 1]
     if np.isfinite(values).all():
-        estimates = _closed_form(values.reshape([n for n in values.shape if n > 1]), facets)
+        estimates, draws = _closed_form(values.reshape([n for n in values.shape if n > 1]), facets)
         estimator = Estimator.ANOVA
     else:
-        estimates, estimator = _restricted(values, facets), Estimator.REML
+        (estimates, draws), estimator = _restricted(values, facets), Estimator.REML
     students, exercises, occasions = (int(count) for count in values.shape)
     return VarianceComponents(
         students=students,
@@ -150,6 +157,7 @@ def variance_components(cube: ScoreCube) -> VarianceComponents:
         estimator=estimator,
         variances=MappingProxyType({name: max(0.0, v) for name, v in estimates.items()}),
         below_zero=tuple(name for name, v in estimates.items() if v < 0.0),
+        draws=MappingProxyType({name: np.maximum(0.0, some) for name, some in draws.items()}),
     )
 
 
@@ -170,17 +178,26 @@ def _name(effect: tuple[str, ...], facets: list[str]) -> str:
     return RESIDUAL if len(effect) == len(facets) else ":".join(effect)
 
 
-def _closed_form(values: FloatArray, facets: list[str]) -> dict[str, float]:
-    """Return the components by expected mean squares (Brennan 2001, section 3.2.2).
+def _closed_form(
+    values: FloatArray, facets: list[str]
+) -> tuple[dict[str, float], dict[str, FloatArray]]:
+    """Return the components by expected mean squares (Brennan 2001, section 3.2.2), and draws.
+
+    A mean square of expectation s with n degrees of freedom is s chi²(n) / n, so that what s may be
+    is drawn as n times the mean square that was seen over chi²(n).
 
     Args:
         values: one axis for each facet, complete.
         facets: names of the axes.
     """
-    axes, effects = range(len(facets)), _effects(facets)
+    from scipy.special import gammaincinv
+
+    axes = range(len(facets))
     centred = values - values.mean()
     squares: dict[tuple[str, ...], float] = {}
-    for effect in effects:
+    drawn: dict[tuple[str, ...], FloatArray] = {}
+    rng = np.random.default_rng(_SEED)
+    for effect in _effects(facets):
         inside = [axis for axis in axes if facets[axis] in effect]
         deviation = centred
         for axis in axes:
@@ -189,22 +206,35 @@ def _closed_form(values: FloatArray, facets: list[str]) -> dict[str, float]:
         repeats = values.size / deviation.size
         df = float(np.prod([values.shape[axis] - 1 for axis in inside]))
         squares[effect] = repeats * float((deviation**2).sum()) / df
-    estimates = {}
-    for effect in effects:
-        outside = [axis for axis in axes if facets[axis] not in effect]
+        shares = rng.permutation((np.arange(DRAWS) + 0.5) / DRAWS)
+        drawn[effect] = df * squares[effect] / (2.0 * gammaincinv(0.5 * df, shares))
+    # what differs from 0 by rounding alone is not below it
+    rounding = NO_VARIANCE * float((values**2).mean())
+    estimates = _solved(squares, facets, values.shape)
+    exact = {name: 0.0 if abs(v) <= rounding else float(v) for name, v in estimates.items()}
+    return exact, _solved(drawn, facets, values.shape)
+
+
+def _solved(
+    squares: Mapping[tuple[str, ...], Any], facets: list[str], shape: tuple[int, ...]
+) -> dict[str, Any]:
+    """Return the components whose expected mean squares these are: numbers, or arrays of draws."""
+    solved = {}
+    for effect in squares:
+        outside = [count for count, facet in zip(shape, facets, strict=True) if facet not in effect]
         total = sum(
             (-1) ** (len(other) - len(effect)) * square
             for other, square in squares.items()
             if set(effect) <= set(other)
         )
-        estimates[_name(effect, facets)] = total / np.prod([values.shape[a] for a in outside])
-    # what differs from 0 by rounding alone is not below it
-    rounding = NO_VARIANCE * float((values**2).mean())
-    return {name: 0.0 if abs(v) <= rounding else float(v) for name, v in estimates.items()}
+        solved[_name(effect, facets)] = total / np.prod(outside)
+    return solved
 
 
-def _restricted(values: FloatArray, facets: list[str]) -> dict[str, float]:
-    """Return the components of a cube with missing cells."""
+def _restricted(
+    values: FloatArray, facets: list[str]
+) -> tuple[dict[str, float], dict[str, FloatArray]]:
+    """Return the components of a cube with missing cells, and draws."""
     cells = np.argwhere(np.isfinite(values))
     points = values[tuple(cells.T)]
     effects = []
@@ -212,5 +242,6 @@ def _restricted(values: FloatArray, facets: list[str]) -> dict[str, float]:
         columns = cells[:, [FACETS.index(facet) for facet in own]]
         levels = np.unique(columns, axis=0, return_inverse=True)[1].reshape(-1)
         effects.append(RandomEffect(_name(own, facets), levels, nested=STUDENT in own))
-    estimates = reml(points, cells[:, 0], effects)
-    return dict(zip([*(effect.name for effect in effects), RESIDUAL], estimates, strict=True))
+    estimates, draws = reml(points, cells[:, 0], effects)
+    names = [*(effect.name for effect in effects), RESIDUAL]
+    return dict(zip(names, estimates, strict=True)), dict(zip(names, draws, strict=False))

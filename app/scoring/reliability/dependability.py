@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -32,7 +32,7 @@ from app.scoring.reliability.components import (
     STUDENT,
     VarianceComponents,
 )
-from app.scoring.reliability.icc import NO_VARIANCE, checked_table
+from app.scoring.reliability.icc import CONFIDENCE, NO_VARIANCE, checked_table
 
 WANTED: Final = 0.8
 """G or Phi that an assessment with consequences should have (Brennan 2001; Downing 2004)."""
@@ -69,18 +69,37 @@ class DecisionStudy:
             attempts: at each of them, 1 or more.
             absolute: against a pass mark; else against other students.
         """
-        v, both = self.components.variance, exercises * attempts
-        error = (
-            v(STUDENT, EXERCISE) / exercises + v(STUDENT, OCCASION) / attempts + v(RESIDUAL) / both
-        )
-        if absolute:
-            error += v(EXERCISE) / exercises + v(OCCASION) / attempts + v(EXERCISE, OCCASION) / both
-        return error
+        return float(_error(self.components.variance, exercises, attempts, absolute))
 
     def coefficient(self, exercises: int, attempts: int, absolute: bool = False) -> float:
         """Return G, or Phi where `absolute`: 0 ... 1, and 0 where students do not differ."""
         own = self.components.variance(STUDENT)
         return own / (own + self.error(exercises, attempts, absolute)) if own > 0.0 else 0.0
+
+    def interval(
+        self, exercises: int, attempts: int, absolute: bool = False, confidence: float = CONFIDENCE
+    ) -> tuple[float, float] | None:
+        """Return an interval of G, or Phi; None where nothing tells how uncertain it is.
+
+        Args:
+            exercises: how many, 1 or more.
+            attempts: at each of them, 1 or more.
+            absolute: for Phi, else for G.
+            confidence: between 0 and 1.
+        """
+        draws = self.components.draws
+        if not draws:
+            return None
+        own = draws[STUDENT]
+        nothing = np.zeros_like(own)
+        error = _error(
+            lambda *facets: draws.get(":".join(facets), nothing), exercises, attempts, absolute
+        )
+        whole = np.maximum(own + error, np.finfo(float).tiny)
+        tail = 0.5 * (1.0 - confidence)
+        low, high = np.quantile(own / whole, [tail, 1.0 - tail])
+        value = self.coefficient(exercises, attempts, absolute)
+        return min(float(low), value), max(float(high), value)
 
     def standard_error(self, exercises: int = 1, attempts: int = 1, absolute: bool = True) -> float:
         """Return the standard error of a score [points]."""
@@ -124,6 +143,15 @@ class DecisionStudy:
             middle = (low + high) // 2
             low, high = (low, middle) if of(middle) >= wanted else (middle, high)
         return high
+
+
+def _error(v: Callable[..., Any], exercises: int, attempts: int, absolute: bool) -> Any:
+    """Return the error variance of a mean, of components that are numbers or draws of them."""
+    both = exercises * attempts
+    error = v(STUDENT, EXERCISE) / exercises + v(STUDENT, OCCASION) / attempts + v(RESIDUAL) / both
+    if absolute:
+        error += v(EXERCISE) / exercises + v(OCCASION) / attempts + v(EXERCISE, OCCASION) / both
+    return error
 
 
 @dataclass(frozen=True, slots=True)

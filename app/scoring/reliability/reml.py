@@ -37,6 +37,10 @@ _NO_CHANCE: Final = 1e-6
 _ALIKE: Final = 1e-9
 """Least eigenvalue of the equations, scaled to a diagonal of 1, of effects that are told apart."""
 
+DRAWS: Final = 10_000
+"""So many values are drawn of what the components may be as well."""
+
+_SEED: Final = 2015
 _FIRST: Final = 1e-3
 """A smaller t is all but 0, where the deviance is flat whichever way it goes from there."""
 
@@ -116,7 +120,9 @@ class _Deviance:
         out = inverse @ (scaled_out - np.einsum("spr,spk->rk", b, up))
         within = up - over @ out
         inner = self.inner - np.einsum("spk,spl->kl", scaled, within) - scaled_out.T @ out
-        a = float(inner[1, 1])
+        a = max(
+            float(inner[1, 1]), 1e-12 * self.n
+        )  # where nothing is left to chance it is rounding
         mean = float(inner[0, 1]) / a
         rest = max(float(inner[0, 0]) - mean * float(inner[0, 1]), 1e-300)
         log_m = float(np.linalg.slogdet(d)[1].sum()) + float(np.linalg.slogdet(schur)[1])
@@ -161,14 +167,17 @@ def _columns(
 
 def reml(
     points: FloatArray, students: NDArray[np.intp], effects: Sequence[RandomEffect]
-) -> list[float]:
-    """Return the variance of each effect and, at last, of what is left.
+) -> tuple[list[float], list[FloatArray]]:
+    """Return the variance of each effect and, at last, of what is left; and draws of them.
 
     Args:
         points: observations, shape (N,), which differ.
         students: of each observation, counted from 0.
         effects: with one at least that is nested in students, and one that is not; the levels of a
             student follow one another.
+
+    Draws are of the ratios to what is left, by the curvature at the estimate; there are none where
+    it is not that of a minimum.
 
     Raises:
         ReliabilityError: where the observations do not tell two effects apart, or leave nothing to
@@ -203,7 +212,31 @@ def reml(
             )
         )
     chance *= size * size
-    return [*(float(t * t * chance) for t in best), chance]
+    draws = [chance * t * t for t in _drawn(deviance, best)]
+    draws += [np.full(DRAWS, chance)] if draws else []
+    return [*(float(t * t * chance) for t in best), chance], draws
+
+
+def _drawn(deviance: _Deviance, best: FloatArray) -> list[FloatArray]:
+    """Return what each t may be as well, normal by the curvature of the deviance at its least.
+
+    The deviance is -2 log of the likelihood, so that the covariance is twice its inverse curvature.
+    A t that is all but 0 stays there. Returns none where the curvature is not that of a minimum.
+    """
+    free = np.flatnonzero(best >= _FIRST)
+    curvature = np.empty((len(free), len(free)))
+    for row, place in enumerate(free):
+        step = np.zeros_like(best)
+        step[place] = 1e-4 * max(float(best[place]), 0.1)
+        slopes = deviance.at(best + step)[1] - deviance.at(best - step)[1]
+        curvature[row] = slopes[free] / (2.0 * step[place])
+    curvature = 0.5 * (curvature + curvature.T)
+    if not len(free) or np.linalg.eigvalsh(curvature)[0] <= 0.0:
+        return []
+    spread = np.linalg.cholesky(2.0 * np.linalg.inv(curvature))
+    drawn = np.tile(best, (DRAWS, 1))
+    drawn[:, free] += np.random.default_rng(_SEED).standard_normal((DRAWS, len(free))) @ spread.T
+    return list(drawn.T)
 
 
 def _grown_from_zero(deviance: _Deviance, t: FloatArray) -> FloatArray:

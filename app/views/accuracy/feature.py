@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections import deque
 from functools import partial
+from pathlib import Path
 from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtCore import QTimer, Signal, SignalInstance
+from PySide6.QtWidgets import QFileDialog
 
 from app.core import paths
 from app.core.errors import AcusError
@@ -27,11 +29,16 @@ from app.views.reading.lock_words import why_locked
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
+    from app.research.sweep_table import SweepTable
     from app.studies.findings import Findings
     from app.studies.kept import Kept
     from app.views.accuracy.page import AccuracyPage
+
+LOOK_AGAIN_MS = 5_000
+"""So often a sweep that grows is looked at [ms]."""
+
+_PARTS = ".parts"
+"""Ends the name of the folder of a sweep's parts."""
 
 REPEATS = 5
 """Timings per way and setting on this computer."""
@@ -62,6 +69,7 @@ class AccuracyFeature(Feature):
         self._explained: BackgroundTask | None = None
         self._measured: BackgroundTask | None = None
         self._scene: Exercise | None = None
+        self._sweep: Path | None = None
         self._frames: deque[float] = deque(maxlen=60)
         context.shell.add_panel(self.panel, tr("Effects"), scrolls=True)
         self.panel.chosen.connect(self.compute_by)
@@ -140,6 +148,7 @@ class AccuracyFeature(Feature):
             page.measure_wanted.connect(self.measure)
             page.source_wanted.connect(lambda here: self.show_study(page.name, here))
             page.hard.wanted.connect(self.try_hard_cases)
+            page.sweeps.wanted.connect(self.choose_sweep)
             page.set_studies(_titles())
         self._shell.show_page(page)
 
@@ -156,6 +165,44 @@ class AccuracyFeature(Feature):
             self.page.show_study(_read(name, here), here)
         except AcusError as error:
             self.failed.emit(error)
+
+    def choose_sweep(self) -> None:
+        """Ask which sweep to show."""
+        parent = self._shell.dialog_parent
+        kind = tr("Table of a sweep (*.parquet)")
+        dialog = QFileDialog(parent, tr("Open a sweep"), str(Path.cwd()), kind)
+        # a sweep that works has no table yet: its name may be typed
+        dialog.setFileMode(QFileDialog.FileMode.AnyFile)
+        dialog.setLabelText(QFileDialog.DialogLabel.Accept, tr("Open"))
+        dialog.fileSelected.connect(lambda name: self.show_sweep(Path(name)))
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+
+    def show_sweep(self, path: Path) -> None:
+        """Show a sweep's table, or what there is of it by now, which is looked at again."""
+        if path.parent.name.endswith(_PARTS):  # one of its parts was chosen
+            path = path.parent
+        if path.name.endswith(_PARTS):
+            path = path.with_name(path.name.removesuffix(_PARTS))
+
+        def read(_: Progress) -> SweepTable:
+            from app.research.sweep_table import read_sweep
+
+            return read_sweep(path)
+
+        def show(sweep: SweepTable) -> None:
+            if self.page is None or path != self._sweep:
+                return
+            self.page.sweeps.show_sweep(sweep)
+            if not sweep.finished:
+                QTimer.singleShot(LOOK_AGAIN_MS, self, again)
+
+        def again() -> None:
+            if path == self._sweep and self.page is not None and self.page.isVisible():
+                run_in_background(self, read, show, self.failed.emit)
+
+        self._sweep = path
+        run_in_background(self, read, show, self.failed.emit)
 
     def try_hard_cases(self) -> None:
         """Try every hard case on this computer, beside the window."""

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.views.accuracy.diagram import Diagram
+from app.views.accuracy.sweep_tab import SweepTab
 from app.views.kit import theme
 from app.views.kit.parts import button, label, table
 from app.views.kit.text import listing, literal, tr
@@ -146,7 +147,7 @@ class AccuracyPage(QWidget):
             )
         )
         self.ways.setAccessibleName(tr("Way"))
-        self.hard = HardCasesTab()
+        self.hard, self.sweeps = HardCasesTab(), SweepTab()
         self.tabs = QTabWidget(self)
         back = button(tr("Back"))
         back.clicked.connect(self.closed)
@@ -177,6 +178,7 @@ class AccuracyPage(QWidget):
         rows.addWidget(label(tr("Cost of accuracy"), "title"))
         self.tabs.addTab(sides, tr("Choices"))
         self.tabs.addTab(self.hard, tr("Hard cases"))
+        self.tabs.addTab(self.sweeps, tr("Sweeps"))
         rows.addWidget(self.tabs, 1)
         rows.addLayout(foot)
 

@@ -35,6 +35,7 @@ from app.session.course_plan import course_plans
 from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
+from app.session.reliability import reliability_lines
 from app.session.roster import RosterLine, roster_in
 from app.session.stations import NAME_SETTING
 from app.views.kit.access import ACCESS
@@ -43,7 +44,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
 from app.views.kit.roles import EVERYBODY, STAFF, Role
-from app.views.kit.text import declared, tr, tr_n, translated
+from app.views.kit.text import begun, declared, tr, tr_n, translated
 from app.views.people.course_form import CourseDialog
 from app.views.people.curve import CurveDialog
 from app.views.people.folder_backups import FolderBackups
@@ -614,6 +615,17 @@ class PeopleFeature(Feature):
 
         self._beside(work, lambda _: self.noted.emit(saved), tr("Writing the results"))
 
+    def show_reliability(self) -> None:
+        """Say how far the scores of the board can be relied on; told beside the window."""
+        if self._look is None or not self._may():
+            return
+        board, title = self._look.board, tr("How far scores can be relied on")
+
+        def show(lines: Sequence[str]) -> None:
+            self._tell(title, tr("Intervals are of 95 %."), "\n".join(map(begun, lines)))
+
+        self._beside(lambda _: reliability_lines(board), show, title)
+
     def _chosen_student(self) -> Person | None:
         """Return the student whose row of the board is chosen."""
         row, board = self.page.board.table.currentRow(), self.page.board.board
@@ -662,6 +674,7 @@ class PeopleFeature(Feature):
         board.curve_wanted.connect(self._show_curve)
         board.attempts_wanted.connect(self._show_attempts)
         board.export_wanted.connect(self.choose_export)
+        board.reliability.triggered.connect(lambda: self.show_reliability())
         students.add.clicked.connect(lambda: self.add_student())
         students.roster.clicked.connect(lambda: self.choose_roster())
         students.pin.clicked.connect(lambda: self.new_pin())

@@ -22,6 +22,7 @@ from app.exercises.guidance import Purpose
 from app.session.board import BoardCell
 from app.session.course import CourseItem
 from app.session.people import Person
+from app.session.reliability import reliability_lines
 from app.views.debrief.report import DIM, INK, RULE
 from app.views.kit.text import day, number, tr, tr_n, translated
 from app.views.people.competence_marks import MARKS
@@ -75,14 +76,14 @@ def group_report(
         Cancelled: if that was asked for.
     """
     progress = progress or Progress()
-    students = in_order(results)
+    students, reliable = in_order(results), reliability_lines(results.board)
 
     def fill(sheet: ReportPages) -> None:
         begun = 0.5 if sheet.pages else 0.0
         progress.report(begun, facts.heading)
         _heading(sheet, results, facts)
         _exercises(sheet, results, titles)
-        _notes(sheet, results, facts.rule)
+        _notes(sheet, results, facts.rule, reliable)
         draw_signatures(sheet, tr("Instructor"), tr("Head of training"))
         room = max(1, int((sheet.inner - _NAME - _TOTAL) // _NARROW))
         items = results.board.items
@@ -288,8 +289,8 @@ def _ending(sheet: ReportPages, right: float, words: str) -> None:
 
 
 # --- below the marks ------------------------------------------------------------------------------
-def _notes(sheet: ReportPages, results: Results, rule: GradeRule) -> None:
-    """Say how to read the marks, and what chance does to them."""
+def _notes(sheet: ReportPages, results: Results, rule: GradeRule, reliable: Sequence[str]) -> None:
+    """Say how to read the marks, what chance does to them, and how far they can be relied on."""
     sheet.y += 6.0
     how = tr(
         "✔ passed at least once. In brackets the attempts that count: scored, comparable, by a "
@@ -306,7 +307,9 @@ def _notes(sheet: ReportPages, results: Results, rule: GradeRule) -> None:
     stars = tr("★ competent, ▼ relapse.")
     competent = f"{stars} {competence_rule(results.board)}" if results.board.items else ""
     chance = chance[:1].upper() + chance[1:]
-    for words in filter(None, (how, near, competent, pages, chance)):
+    lines = "; ".join(map(translated, reliable))
+    relied = tr("Reliability (intervals of 95 %): {lines}", lines=lines) if reliable else ""
+    for words in filter(None, (how, near, competent, pages, chance, relied)):
         sheet.paragraph(words if words.endswith(".") else f"{words}.", 8.0, DIM)
 
 

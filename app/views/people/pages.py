@@ -133,6 +133,9 @@ class BoardTab(QWidget):
         self.attempts = self._action(
             tr("Attempts…"), "Ctrl+Return", tr("List them: debrief, replay, remarks (Ctrl+Enter)")
         )
+        self.reliability = self._action(
+            tr("How far scores can be relied on…"), "Ctrl+Shift+G", tr("G, Phi, agreement")
+        )
         self.hint = label("", "dim")
         self.board: ProgressBoard | None = None
         self.form, self.export = QComboBox(self), button(tr("Export…"))
@@ -222,7 +225,7 @@ class BoardTab(QWidget):
 
     def set_leaving(self, may: bool) -> None:
         """Offer exports, and the choice of a group, or neither."""
-        for widget in (*self._leaving, self._of_group, self.group):
+        for widget in (*self._leaving, self._of_group, self.group, self.reliability):
             widget.setVisible(may)
 
     def show_board(self, board: ProgressBoard, titles: Mapping[str, str]) -> None:

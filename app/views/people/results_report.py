@@ -14,6 +14,7 @@ from PySide6.QtGui import QColor, QPen, QPolygonF
 from PySide6.QtWidgets import QApplication
 
 from app.core.files import write_atomically
+from app.core.language import code
 from app.core.messages import sentence
 from app.exchange.errors import ExportError
 from app.exchange.results import Results
@@ -23,6 +24,7 @@ from app.session.audit import note
 from app.session.board import CurvePoint
 from app.session.people import Person
 from app.views.debrief.report import BAND_INKS, DIM, INK, LINE, MARGIN, RULE, WIDTH, font
+from app.views.kit.language import use_language
 from app.views.kit.text import date_text, listing, number, tr, tr_n, translated
 from app.views.people.competence_marks import (
     competence_line,
@@ -85,7 +87,10 @@ def write_report(path: Path, draw: Callable[[], bytes]) -> None:
     """
     # Text needs an application; the platform without a display is enough.
     note("results written")
-    application = QApplication.instance() or QApplication(["acus", "-platform", "offscreen"])
+    application = QApplication.instance()
+    if application is None:  # a command: in the language in which it answers
+        application = QApplication(["acus", "-platform", "offscreen"])
+        use_language(application, code())
     try:
         write_atomically(path, draw())
     except OSError as error:
