@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import gc
 import os
 import subprocess
 import sys
@@ -146,6 +147,7 @@ def _end_with_parent() -> None:
 def main() -> None:
     """Compile, and print an empty line for each kernel."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
+    gc.disable()  # what the compiler makes lives on or dies without help; the process is short
     from app.core import loading
 
     loading.COMPILED.listen(lambda: os.write(sys.stdout.fileno(), b"\n"))
