@@ -26,7 +26,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.messages import sentence
 from app.core.progress import Progress
 
-ABOUT: Final = 300
+ABOUT: Final = 285
 """Kernels that a child compiles, numba's own among them; only a bar goes by it."""
 
 COMMAND: Final = tuple(module_command("app.compose.first_start", options=("-W", "ignore")))

@@ -219,7 +219,7 @@ class _KernelCounter(event.Listener):
 event.register("numba:compile", _KernelCounter())
 
 
-class _WaitingStage(CPUDispatcher):  # type: ignore[misc]  # numba has no types
+class _WaitingStage(CPUDispatcher):
     """A stage that nobody has called, looked at or put into a table; an ordinary kernel then.
 
     An exercise runs one of several estimators of velocity, and no wire where the robot is
@@ -298,4 +298,4 @@ def stage(function: StageFunction) -> StageFunction:
     if isinstance(waiting, CPUDispatcher):  # not where numba compiles nothing
         waiting.__class__ = _WaitingStage
         _WAITING.append(waiting)
-    return waiting  # type: ignore[no-any-return]
+    return waiting

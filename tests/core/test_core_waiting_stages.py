@@ -29,9 +29,15 @@ def doubled(state, p):
 
 
 @pytest.fixture
-def waiting(monkeypatch):
-    """A stage of the program: of a file in its folder, as far as it can tell."""
+def own(monkeypatch):
+    """Files of these tests are the program's own, and nothing else waits."""
     monkeypatch.setattr(compiled, "_OWN", os.path.join(os.path.dirname(__file__), ""))
+    monkeypatch.setattr(compiled, "_WAITING", [])
+
+
+@pytest.fixture
+def waiting(own):
+    """A stage of the program that nobody has asked for."""
     return compiled.stage(doubled)
 
 
@@ -91,9 +97,7 @@ def test_a_stage_that_several_threads_ask_for_is_compiled_once(waiting) -> None:
     assert len(waiting.signatures) == 1
 
 
-def test_a_stage_that_cannot_be_compiled_says_which_and_says_it_again(monkeypatch) -> None:
-    monkeypatch.setattr(compiled, "_OWN", os.path.join(os.path.dirname(__file__), ""))
-
+def test_a_stage_that_cannot_be_compiled_says_which_and_says_it_again(own) -> None:
     def impossible(state, p):
         state[0] = "words"
 
