@@ -103,7 +103,6 @@ import numba  # noqa: E402  (after the cache folder is set)
 from numba import types  # noqa: E402
 from numba.core import event, typeinfer  # noqa: E402
 from numba.core.compiler_lock import global_compiler_lock  # noqa: E402
-from numba.core.errors import NumbaError  # noqa: E402
 from numba.core.registry import CPUDispatcher  # noqa: E402
 from numba.core.typing.templates import builtin_registry  # noqa: E402
 from numba.np import arrayobj  # noqa: E402
@@ -235,11 +234,7 @@ class _WaitingStage(CPUDispatcher):
         return compiled
 
     def compile_now(self) -> None:
-        """Compile, or load from the cache; whoever asks meanwhile on another thread waits.
-
-        Raises:
-            RuntimeError: if it cannot be compiled; says which.
-        """
+        """Compile, or load from the cache; whoever asks meanwhile on another thread waits."""
         with global_compiler_lock:
             if type(self) is not _WaitingStage or self.__dict__.get("_begun"):
                 return
@@ -249,9 +244,6 @@ class _WaitingStage(CPUDispatcher):
                     self.compile(STAGE_SIGNATURE)
                 self.disable_compile()
                 self.__class__ = CPUDispatcher
-            except NumbaError as error:
-                name = f"{self.py_func.__module__}.{self.py_func.__qualname__}"
-                raise RuntimeError(f"stage {name} cannot be compiled: {error}") from error
             finally:
                 del self._begun
 
