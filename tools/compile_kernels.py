@@ -49,8 +49,11 @@ def compile_all(modules: Mapping[str, Set[str]], processes: Executor) -> None:
 
 
 def import_module_of(name: str) -> None:
-    """Import a module for what that compiles; a module itself cannot be sent between processes."""
+    """Import a module and compile what waits in it; a module cannot be sent between processes."""
     import_module(name)
+    from app.core.compiled import compile_waiting
+
+    compile_waiting()
 
 
 def main() -> None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import gc
 import os
 import subprocess
 import sys
@@ -25,7 +26,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.messages import sentence
 from app.core.progress import Progress
 
-ABOUT: Final = 300
+ABOUT: Final = 285
 """Kernels that a child compiles, numba's own among them; only a bar goes by it."""
 
 COMMAND: Final = tuple(module_command("app.compose.first_start", options=("-W", "ignore")))
@@ -146,6 +147,7 @@ def _end_with_parent() -> None:
 def main() -> None:
     """Compile, and print an empty line for each kernel."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
+    gc.disable()  # what the compiler makes lives on or dies without help; the process is short
     from app.core import loading
 
     loading.COMPILED.listen(lambda: os.write(sys.stdout.fileno(), b"\n"))

@@ -101,7 +101,9 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 
 import numba  # noqa: E402  (after the cache folder is set)
 from numba import types  # noqa: E402
-from numba.core import event  # noqa: E402
+from numba.core import event, typeinfer  # noqa: E402
+from numba.core.compiler_lock import global_compiler_lock  # noqa: E402
+from numba.core.registry import CPUDispatcher  # noqa: E402
 from numba.core.typing.templates import builtin_registry  # noqa: E402
 from numba.np import arrayobj  # noqa: E402
 
@@ -216,12 +218,76 @@ class _KernelCounter(event.Listener):
 event.register("numba:compile", _KernelCounter())
 
 
+class _WaitingStage(CPUDispatcher):
+    """A stage that nobody has called, looked at or put into a table; an ordinary kernel then.
+
+    An exercise runs one of several estimators of velocity, and no wire where the robot is
+    simulated: what it does not run is not compiled for it. Numba reads what a kernel is compiled
+    for from `overloads`, and asks for more by the three methods here.
+    """
+
+    @property
+    def overloads(self) -> dict[Any, Any]:
+        """Return what it is compiled for, by its types."""
+        self.compile_now()
+        compiled: dict[Any, Any] = self.__dict__["overloads"]
+        return compiled
+
+    def compile_now(self) -> None:
+        """Compile, or load from the cache; whoever asks meanwhile on another thread waits."""
+        with global_compiler_lock:
+            if type(self) is not _WaitingStage or self.__dict__.get("_begun"):
+                return
+            self._begun = True
+            try:
+                with typeinfer.register_dispatcher(self):
+                    self.compile(STAGE_SIGNATURE)
+                self.disable_compile()
+                self.__class__ = CPUDispatcher
+            finally:
+                del self._begun
+
+    def _compile_for_args(self, *_args: Any, **_named: Any) -> Any:
+        self.compile_now()
+        return self  # numba calls what it is given with the same arguments
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Return what numba calls it by from another kernel."""
+        self.compile_now()
+        return CPUDispatcher.get_call_template(self, args, kws)
+
+    def get_function_type(self) -> Any:
+        """Return its type as a first-class function."""
+        self.compile_now()
+        return CPUDispatcher.get_function_type(self)
+
+
+_WAITING: list[_WaitingStage] = []
+
+
+def compile_waiting() -> None:
+    """Compile every stage of the modules imported so far, as who fills the cache for others."""
+    while _WAITING:
+        _WAITING.pop().compile_now()
+
+
 def is_stage(function: Any) -> bool:
-    """Return whether something has been compiled as a stage of the tick."""
-    return STAGE_SIGNATURE.args in getattr(function, "signatures", ())
+    """Return whether something is compiled as a stage of the tick, or will be when it is called."""
+    waits = isinstance(function, _WaitingStage)
+    return waits or STAGE_SIGNATURE.args in getattr(function, "signatures", ())
 
 
 def stage(function: StageFunction) -> StageFunction:
-    """Compile a function of (state, parameters) as a stage of the tick, cached on disk."""
-    compiled: StageFunction = njit(STAGE_SIGNATURE)(function)
-    return compiled
+    """Compile a function of (state, parameters) as a stage of the tick, cached on disk.
+
+    One of the program's own waits until it is called or put into a table; somebody else's is
+    compiled at once, so that the file that it is in is refused where it cannot be.
+    """
+    if not function.__code__.co_filename.startswith(_OWN):
+        compiled: StageFunction = njit(STAGE_SIGNATURE)(function)
+        return compiled
+    waiting: Any = njit(function, no_cfunc_wrapper=False)
+    if isinstance(waiting, CPUDispatcher):  # not where numba compiles nothing
+        waiting.__class__ = _WaitingStage
+        _WAITING.append(waiting)
+    return waiting

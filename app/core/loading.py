@@ -35,7 +35,7 @@ class CompiledKernels:
         count: how many.
     """
 
-    ABOUT: Final = 360
+    ABOUT: Final = 280
     """Compiled by a whole first start, numba's own among them, but for the tracker's."""
 
     def __init__(self) -> None:

@@ -54,7 +54,8 @@ def screen_pixels(
             )
         )
     kind = values.dtype if values.dtype == np.int16 else np.float32
-    values = np.ascontiguousarray(values, kind)  # every other order would be compiled for
+    values = np.ascontiguousarray(values, kind)[:]  # every other order would be compiled for
+    values.flags.writeable = False  # and what may be written besides what may not
     out = np.empty((size[1], size[0]), np.uint32)
     span = window.width - 1.0
     gain = np.float32(255.0 / span) if span >= 1e-3 else np.float32(0.0)  # 0: a step

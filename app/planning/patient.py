@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from app.core.arrays import frozen, read_only
+from app.core.arrays import frozen
 from app.core.loading import ONE_AT_A_TIME, turn
 from app.core.progress import Progress
 from app.imaging.series import NO_REMEDY, Series
@@ -109,6 +109,5 @@ def _load_verdict(progress: Progress) -> None:
         reach(Plan(frozen(entry), frozen((0.0, 0.0, 0.0))), Placement(), profile)
     soft, place = PRESETS["Soft tissue"], (0.0, 0.0, 1.0, 1.0)
     for kind in (np.int16, np.float32):
-        for values in (np.zeros((1, 1), kind), read_only(np.zeros((1, 1), kind))):
-            pixels = screen_pixels(values, soft, False, place, (1, 1))  # compiled for either
-            draw_strokes(pixels, np.zeros((0, STROKE)), (0.0, 0.0), 1.0, 1.0)
+        pixels = screen_pixels(np.zeros((1, 1), kind), soft, False, place, (1, 1))
+        draw_strokes(pixels, np.zeros((0, STROKE)), (0.0, 0.0), 1.0, 1.0)

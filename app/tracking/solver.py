@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from app.core.arrays import FloatArray, frozen, unit
+from app.core.arrays import FloatArray, frozen, read_only, unit
 from app.core.compiled import njit
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
@@ -218,7 +218,8 @@ class FixSolver:
         self._rig = rig
         self._models = rig.models
         poses = (self._models[0].T_camera_world, self._models[1].T_camera_world)
-        self._cameras = np.array([packed(model) for model in self._models])
+        # Read-only as `packed` is: what reads a camera is compiled once.
+        self._cameras = read_only(np.array([packed(model) for model in self._models]))
         self._matrices = np.array([pose.matrix()[:3] for pose in poses])
         self._needle = np.array(rig.needle.shape)
         self._fulcrum = frozen(fulcrum, (3,), "fulcrum")

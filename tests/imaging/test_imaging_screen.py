@@ -92,6 +92,7 @@ def test_once_a_patient_is_prepared_no_slice_of_a_volume_has_anything_compiled(k
         for picture in (values, values[::-1], values.T):
             screen_pixels(picture, SOFT, False, (0.0, 0.0, 9.0, 9.0), (9, 9))
     assert before == [list(kernel.signatures) for kernel in (screen._draw, screen._row)]
+    assert all(len(signatures) <= 2 for signatures in before)  # one for each kind of number
 
 
 SHAPE = (60, 80)

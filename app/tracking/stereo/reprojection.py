@@ -13,8 +13,14 @@ __all__ = ["NEAREST", "Poses", "inverse", "refine", "reprojection", "stacked"]
 
 
 def stacked(poses: Poses) -> tuple[FloatArray, FloatArray]:
-    """Rotations (n, 3, 3) and translations (n, 3), as the kernels take them."""
-    return np.array([p.rotation for p in poses]), np.array([p.translation for p in poses])
+    """Rotations (n, 3, 3) and translations (n, 3): parts of one array, as `locate` has them.
+
+    The kernels are compiled for such parts then, and for nothing else.
+    """
+    whole = np.empty((len(poses), 3, 4))
+    for row, pose in zip(whole, poses, strict=True):
+        row[:, :3], row[:, 3] = pose.rotation, pose.translation
+    return whole[:, :, :3], whole[:, :, 3]
 
 
 def reprojection(
