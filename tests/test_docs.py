@@ -142,6 +142,16 @@ QUESTIONS = {
     "robot does not answer": "troubleshooting.html",
     "write my own force law": "extending.html",
     "replay an attempt": "sessions.html",
+    "how do I move the needle with the mouse": "user-guide.html",
+    "keyboard shortcuts": "reading.html",
+    "change the language": "user-guide.html",
+    "my attempt is void": "troubleshooting.html",
+    "make a new exercise": "authoring.html",
+    "print the results of a course": "people.html",
+    "change the pass mark": "exercises.html",
+    "camera is too slow": "cameras.html",
+    "install on another computer": "installing.html",
+    "add my own command": "extending.html",
 }
 """What people ask, and the page that must be among the first three answers."""
 

@@ -23,7 +23,6 @@ from app.mechanisms.pantograph import forward, inverse
 from app.mechanisms.profile import VelocityMethod, load_profile
 
 TESTED_ELSEWHERE = {
-    "How to add a hard case": "tests/hard/test_hard_register.py",
     "How to add a language": "tests/views/test_adding_a_language.py",
     "How to add a panel": "tests/views/test_adding_a_panel.py",
     "How to add a view": "tests/views/test_views_shown.py",
@@ -145,6 +144,67 @@ def test_a_study_is_listed_without_running_it_and_answers(save):
     )
     assert "sine_series              How many terms are enough?" in listed.stdout
     assert run("sine_series", repeats=1).too_coarse() == ("1 terms", "2 terms")
+
+
+@pytest.fixture
+def ask(tmp_path):
+    """Save a file in a folder of plug-ins, and ask a program that has it."""
+
+    def asked(place, text, *arguments, code=0):
+        path = tmp_path / "acus_mine" / place
+        path.parent.mkdir(parents=True)
+        (tmp_path / "acus_mine" / "__init__.py").touch()
+        path.write_text(text, encoding="utf-8")
+        mine = {"ACUS_PLUGINS": str(tmp_path / "acus_mine"), "PYTHONPATH": str(ROOT)}
+        done = subprocess.run(
+            [sys.executable, *arguments],
+            env=os.environ | mine | {"ACUS_SESSIONS": str(tmp_path / "sessions")},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == code, done.stdout + done.stderr
+        return done.stdout
+
+    return asked
+
+
+def test_a_hard_case_holds_and_its_subsystem_stands_where_it_says(ask):
+    name, code = example("How to add a hard case")
+    program = (
+        "from app.core import plugin_folders\n"
+        "from app.studies.hard_cases.case import SUBSYSTEMS, tried\n"
+        "place = SUBSYSTEMS.index('tilt')\n"
+        "print(*SUBSYSTEMS[place - 1 : place + 2])\n"
+        "cases = [case for file in plugin_folders.modules('hard_cases') for case in file.CASES]\n"
+        "print([tried(case).trouble for case in cases if case.subsystem == 'tilt'])"
+    )
+    assert ask(f"hard_cases/{name}", code, "-c", program) == "kinematics tilt statics\n['']\n"
+
+
+def test_a_command_answers_lines_and_json(ask):
+    name, code = example("How to add a command")
+    program = (
+        "from app.commands import build\n"
+        "for words in (['--help'], ['lengths', 'over', '30'], ['lengths', 'over', '--json']):\n"
+        "    build()(words, standalone_mode=False)"
+    )
+    said = ask(f"commands/{name}", code, "-c", program)
+    assert re.search(r"^  arm .*\n  lengths +How long attempts took\.$", said, re.MULTILINE)
+    assert "\n0 attempts\n" in said
+    assert '"longer": []' in said
+
+
+def test_a_command_of_a_name_that_is_there_is_refused_and_the_programs_own_stays(ask):
+    code = example("How to add a command")[1].replace('name="lengths"', 'name="session"')
+    program = (
+        "from app.commands import build; from app.core import plugin_folders\n"
+        "build()(['session', '--help'], standalone_mode=False)\n"
+        "print(*plugin_folders.refused.values())"
+    )
+    said = ask("commands/lengths.py", code, "-c", program)
+    assert "Recorded attempts." in said
+    assert "lengths.py: `acus session` is there already; rename it" in said
 
 
 def test_a_device_profile_describes_a_robot_that_moves(save):

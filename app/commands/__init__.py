@@ -43,7 +43,7 @@ def _nouns() -> list[ModuleType]:
 
 
 def _register(added: ModuleType, root: typer.Typer) -> None:
-    """Add the commands of a plug-in; one of somebody else's that fails is refused.
+    """Add the commands of a plug-in; one of somebody else's that fails or takes a name is refused.
 
     Its commands are built once apart: whether typer can make anything of them shows only then.
     """
@@ -55,13 +55,15 @@ def _register(added: ModuleType, root: typer.Typer) -> None:
     apart = Commands(name=root.info.name)
     try:
         added.register(apart)
-        if apart.registered_commands or apart.registered_groups:
-            typer.main.get_command(apart)
+        taken = typer.main.get_group(apart).commands.keys() & typer.main.get_group(root).commands
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # SystemExit too: whatever somebody's file does
         text = f"{type(error).__name__}: {error}".rstrip(": ")
         plugin_folders.refused[path] = f"{path}: register() does not work: {text}"
+        return
+    if taken:
+        plugin_folders.refused[path] = f"{path}: `acus {min(taken)}` is there already; rename it"
         return
     root.registered_commands += apart.registered_commands
     root.registered_groups += apart.registered_groups

@@ -323,7 +323,7 @@ PAGES: Final = {
     "robot": "hardware.md#in-the-trainer",
     "scene": "reading.md#3d-view",
     "series": "reading.md#opening-a-ct",
-    "slices": "reading.md#mouse-and-keys",
+    "slices": "reading.md#mouse-and-keyboard-shortcuts",
     "structures": "structures.md#in-the-window",
 }
 """Page and heading about the widgets of folders of `app.views` whose feature names none."""
