@@ -688,8 +688,16 @@
             <translation type="unfinished">{routine_title}: {report_needs}: Geben Sie es mit --readings an</translation>
         </message>
         <message>
+            <source>&gt; {needs} {how}</source>
+            <translation type="unfinished">&gt; {needs} {how}</translation>
+        </message>
+        <message>
             <source>the input has ended before the routine; nothing was kept</source>
             <translation type="unfinished">die Eingabe endete vor der Routine; nichts wurde behalten</translation>
+        </message>
+        <message>
+            <source>{line!r} is not a number in {unit}</source>
+            <translation type="unfinished">{line!r} ist keine Zahl in {unit}</translation>
         </message>
         <message>
             <source>places        agree within {disagreement_mm:.2f} mm</source>
@@ -732,6 +740,10 @@
             <translation type="unfinished">keine Kalibrierung ist in Gebrauch: Führen Sie zuerst `acus calibrate stereo --keep` aus oder nennen Sie eine mit --calibration</translation>
         </message>
         <message>
+            <source>skipped: {name}: its name says none of the two cameras</source>
+            <translation type="unfinished">übergangen: {name}: der Name nennt keine der beiden Kameras</translation>
+        </message>
+        <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out nimmt das Objektiv einer Kamera; diese Bilder sind von {groups}: Geben Sie für jede einen Ordner an oder verwenden Sie `acus calibrate stereo`</translation>
         </message>
@@ -756,6 +768,10 @@
             <translation type="unfinished">--names {names!r} sind nicht zwei Namen, z. B. left,right</translation>
         </message>
         <message>
+            <source>kept {file}</source>
+            <translation type="unfinished">{file} aufbewahrt</translation>
+        </message>
+        <message>
             <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
             <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm zurückgehalten|nicht an zurückgehaltenen Ansichten geprüft}  {world:?Welt|keine Welt}{found_bad:?  FÜR SCHLECHT BEFUNDEN: {found_bad}}}</translation>
         </message>
@@ -764,12 +780,28 @@
             <translation type="unfinished">keine Kalibrierungen in {folder}</translation>
         </message>
         <message>
+            <source>found bad     {day}: {reason}</source>
+            <translation type="unfinished">für schlecht befunden {day}: {reason}</translation>
+        </message>
+        <message>
+            <source>  (in use)</source>
+            <translation type="unfinished">  (in Gebrauch)</translation>
+        </message>
+        <message>
+            <source>file          {path}{in_use}</source>
+            <translation type="unfinished">Datei         {path}{in_use}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind}: Nur yaml und ros lassen sich schreiben</translation>
         </message>
         <message>
             <source>{id} written to {files}</source>
             <translation type="unfinished">{id} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>in use from now on; kept as {path}</source>
+            <translation type="unfinished">von jetzt an in Gebrauch; aufbewahrt als {path}</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
@@ -788,8 +820,44 @@
             <translation type="unfinished">bei 100 % drucken, nicht an die Seite anpassen, und die Linie von 100 mm messen</translation>
         </message>
         <message>
+            <source>id            {id}</source>
+            <translation type="unfinished">Kennung       {id}</translation>
+        </message>
+        <message>
+            <source>created       {created:%Y-%m-%d %H:%M} {zone}</source>
+            <translation type="unfinished">erstellt      {created:%Y-%m-%d %H:%M} {zone}</translation>
+        </message>
+        <message>
+            <source>board         {board}</source>
+            <translation type="unfinished">Tafel         {board}</translation>
+        </message>
+        <message>
+            <source>{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} views</source>
+            <translation type="unfinished">{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} Ansichten</translation>
+        </message>
+        <message>
+            <source>pair          {rms_px:.3f} px, baseline {baseline_mm:.2f} mm</source>
+            <translation type="unfinished">Paar          {rms_px:.3f} px, Basis {baseline_mm:.2f} mm</translation>
+        </message>
+        <message>
+            <source>held back     {views} pairs: {rms_mm:.3f} mm RMS, largest {max_mm:.3f} mm, scale {scale:.5f} ± {scale_sd:.5f}</source>
+            <translation type="unfinished">zurückgelegt  {views} Paare: {rms_mm:.3f} mm RMS, größter {max_mm:.3f} mm, Maßstab {scale:.5f} ± {scale_sd:.5f}</translation>
+        </message>
+        <message>
             <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
             <translation type="unfinished">Unsicherheit  die Unsicherheit der Kalibrierung selbst ist nicht bekannt: Jeder angegebene Radius lässt sie aus</translation>
+        </message>
+        <message>
+            <source>known</source>
+            <translation type="unfinished">bekannt</translation>
+        </message>
+        <message>
+            <source>world         {known}</source>
+            <translation type="unfinished">Welt          {known}</translation>
+        </message>
+        <message>
+            <source>note          {note}</source>
+            <translation type="unfinished">Anmerkung     {note}</translation>
         </message>
         <message>
             <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
@@ -800,24 +868,100 @@
             <translation type="unfinished">--lens {lens!r}: Es gibt {known_lenses}; equidistant ist das Fischaugenmodell</translation>
         </message>
         <message>
+            <source>the picture of rig {name}</source>
+            <translation type="unfinished">das Bild des Gestells {name}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} not used  {text}</source>
+            <translation type="unfinished">{name:&lt;24} nicht benutzt  {text}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} {corners:&gt;3} corners  squares {square_px:.0f} px  edges {edge_px:.1f} px  window ±{window} px</source>
+            <translation type="unfinished">{name:&lt;24} {corners:&gt;3} Ecken  Felder {square_px:.0f} px  Kanten {edge_px:.1f} px  Fenster ±{window} px</translation>
+        </message>
+        <message>
+            <source>  views held back      {rms_px:.4f} px</source>
+            <translation type="unfinished">  zurückgelegte Ansichten {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>calibration {id}, {board}</source>
+            <translation type="unfinished">Kalibrierung {id}, {board}</translation>
+        </message>
+        <message>
+            <source>  by itself {rms_px:.4f} px</source>
+            <translation type="unfinished">  für sich {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>both     {rms_px:.4f} px RMS over {pairs} pairs</source>
+            <translation type="unfinished">beide    {rms_px:.4f} px RMS über {pairs} Paare</translation>
+        </message>
+        <message>
+            <source>  T_right_left {place} mm ± {sd}; baseline {baseline_mm:.3f} mm</source>
+            <translation type="unfinished">  T_right_left {place} mm ± {sd}; Basis {baseline_mm:.3f} mm</translation>
+        </message>
+        <message>
+            <source>  agrees: {text}</source>
+            <translation type="unfinished">  stimmt überein: {text}</translation>
+        </message>
+        <message>
+            <source>  CONTRADICTS: {text}</source>
+            <translation type="unfinished">  WIDERSPRICHT: {text}</translation>
+        </message>
+        <message>
             <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
             <translation type="unfinished">  nicht geprüft: die Größe der Tafel; geben Sie --baseline-mm oder eine zweite Tafel an (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>verdict: {grade}: {text}</source>
+            <translation type="unfinished">Urteil: {grade}: {text}</translation>
+        </message>
+        <message>
+            <source>  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px</source>
+            <translation type="unfinished">  Einfaches Verfahren von OpenCV (alle Ansichten, fünf Koeffizienten): {rms_px:.4f} px</translation>
         </message>
         <message>
             <source>  not validated: no pairs were held back (--hold-back N)</source>
             <translation type="unfinished">  nicht validiert: keine Paare wurden zurückgehalten (--hold-back N)</translation>
         </message>
         <message>
+            <source>  {views} pairs held back: corners within {rms_mm:.3f} mm RMS (at most {max_mm:.3f} mm) of the true board, lengths x {scale:.5f} ± {scale_sd:.5f}, epipolar {epipolar_px:.3f} px</source>
+            <translation type="unfinished">  {views} Paare zurückgelegt: Ecken auf {rms_mm:.3f} mm RMS (höchstens {max_mm:.3f} mm) an der wahren Tafel, Längen × {scale:.5f} ± {scale_sd:.5f}, epipolar {epipolar_px:.3f} px</translation>
+        </message>
+        <message>
+            <source>{name:&lt;8} {rms_px:.4f} px RMS over {views} views of {width}x{height}</source>
+            <translation type="unfinished">{name:&lt;8} {rms_px:.4f} px RMS über {views} Ansichten von {width}x{height}</translation>
+        </message>
+        <message>
+            <source>  {name}  {zero:&gt;12} (not supported by the views)</source>
+            <translation type="unfinished">  {name}  {zero:&gt;12} (von den Ansichten nicht gestützt)</translation>
+        </message>
+        <message>
             <source>left out</source>
             <translation type="unfinished">ausgelassen</translation>
+        </message>
+        <message>
+            <source>  {name:&lt;32} not used: {text}</source>
+            <translation type="unfinished">  {name:&lt;32} nicht benutzt: {text}</translation>
         </message>
         <message>
             <source>no camera is plugged in</source>
             <translation type="unfinished">keine Kamera ist angesteckt</translation>
         </message>
         <message>
+            <source>{side}: {lack}; saved all the same, for when it is</source>
+            <translation type="unfinished">{side}: {lack}; trotzdem gespeichert, für später</translation>
+        </message>
+        <message>
+            <source>warning: {text}</source>
+            <translation type="unfinished">Warnung: {text}</translation>
+        </message>
+        <message>
             <source>saved in {file}</source>
             <translation type="unfinished">in {file} gespeichert</translation>
+        </message>
+        <message>
+            <source>skew (right after left): {skew:.1f} ms</source>
+            <translation type="unfinished">Versatz (rechts nach links): {skew:.1f} ms</translation>
         </message>
         <message>
             <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
@@ -856,8 +1000,24 @@
             <translation type="unfinished">die der Lieferung, abzüglich der Latenz</translation>
         </message>
         <message>
+            <source>{name}: {width}x{height}, {rate:.1f} pictures/s, jitter {jitter_ms:.1f} ms, {repeated:.1f} % repeated</source>
+            <translation type="unfinished">{name}: {width}x{height}, {rate:.1f} Bilder/s, Schwankung {jitter_ms:.1f} ms, {repeated:.1f} % wiederholt</translation>
+        </message>
+        <message>
+            <source>  brightness {brightness:.0f} of 255, {saturated:.1f} % overexposed, noise {noise:.1f} grey values</source>
+            <translation type="unfinished">  Helligkeit {brightness:.0f} von 255, {saturated:.1f} % überbelichtet, Rauschen {noise:.1f} Grauwerte</translation>
+        </message>
+        <message>
+            <source>  capture times: {times}; {age_ms:.0f} ms to delivery</source>
+            <translation type="unfinished">  Aufnahmezeiten: {times}; {age_ms:.0f} ms bis zur Ablieferung</translation>
+        </message>
+        <message>
             <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
             <translation type="unfinished">Farbe des Markers: das übliche Rot (im Bereich Tracker nimmt Lernen eine andere auf)</translation>
+        </message>
+        <message>
+            <source>marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within {angle:.0f}° (`acus camera use --forget-colour` goes back to the usual red)</source>
+            <translation type="unfinished">Farbe der Marke: gelernt, rot {red:.0f} grün {green:.0f} blau {blue:.0f}, auf {angle:.0f}° (`acus camera use --forget-colour` kehrt zum üblichen Rot zurück)</translation>
         </message>
         <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
@@ -880,12 +1040,28 @@
             <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|keine HU: Auffüllung, dort wurde nichts gemessen}</translation>
         </message>
         <message>
+            <source>values  sha256 {values} of {size} {kind}</source>
+            <translation type="unfinished">Werte  sha256 {values} von {size} {kind}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r}: drei Zahlen X,Y,Z in mm</translation>
         </message>
         <message>
+            <source>opens with --remedy {remedy}</source>
+            <translation type="unfinished">geht auf mit --remedy {remedy}</translation>
+        </message>
+        <message>
             <source>the library is empty; `acus ct import DIR` takes a CT in</source>
             <translation type="unfinished">die Bibliothek ist leer; `acus ct import DIR` nimmt ein CT auf</translation>
+        </message>
+        <message>
+            <source>{name}: {label}, {files}: {words}</source>
+            <translation type="unfinished">{name}: {label}, {files}: {words}</translation>
+        </message>
+        <message>
+            <source>; it opens with --remedy {remedy}</source>
+            <translation type="unfinished">; es geht auf mit --remedy {remedy}</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -904,12 +1080,52 @@
             <translation type="unfinished">{option} {argument!r} ist nicht {form}: {count} ganze Zahlen, keine Leerzeichen</translation>
         </message>
         <message>
+            <source>usable </source>
+            <translation type="unfinished">nutzbar </translation>
+        </message>
+        <message>
+            <source>refused</source>
+            <translation type="unfinished">abgelehnt</translation>
+        </message>
+        <message>
+            <source>spacing {spacing} mm</source>
+            <translation type="unfinished">Abstand {spacing} mm</translation>
+        </message>
+        <message>
+            <source>origin {origin} mm</source>
+            <translation type="unfinished">Ursprung {origin} mm</translation>
+        </message>
+        <message>
+            <source>direction {direction}</source>
+            <translation type="unfinished">Richtung {direction}</translation>
+        </message>
+        <message>
+            <source>on request: {remedies}</source>
+            <translation type="unfinished">auf Wunsch: {remedies}</translation>
+        </message>
+        <message>
             <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
             <translation type="unfinished">keine seriellen Anschlüsse; stecken Sie den Roboter an oder versuchen Sie `acus device emulate`</translation>
         </message>
         <message>
+            <source>(the board does not say)</source>
+            <translation type="unfinished">(die Platine sagt es nicht)</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">der Roboter hat geantwortet, sendet aber keine Gelenkwinkel; siehe `acus device test`</translation>
+        </message>
+        <message>
+            <source>cleared for {force:g} N</source>
+            <translation type="unfinished">freigegeben bis {force:g} N</translation>
+        </message>
+        <message>
+            <source>device     {device}: {text}</source>
+            <translation type="unfinished">Gerät      {device}: {text}</translation>
+        </message>
+        <message>
+            <source>not understood: {error}</source>
+            <translation type="unfinished">nicht verstanden: {error}</translation>
         </message>
         <message>
             <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
@@ -974,6 +1190,10 @@
         <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} berührt, {picked} gewählt  {rig}  {trusted:?gut|passt nicht}</translation>
+        </message>
+        <message>
+            <source>no registration checks in {folder}</source>
+            <translation type="unfinished">keine Prüfungen der Registrierung in {folder}</translation>
         </message>
         <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
@@ -1324,12 +1544,20 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">Tabellen und Bilder liegen in {folder}</translation>
         </message>
         <message>
+            <source>cannot be used: {error}</source>
+            <translation type="unfinished">nicht nutzbar: {error}</translation>
+        </message>
+        <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r}: Verwenden Sie {valid}</translation>
         </message>
         <message>
             <source>{files}: from world (robot) to patient (LPS)</source>
             <translation type="unfinished">{files}: von der Welt (Roboter) zum Patienten (LPS)</translation>
+        </message>
+        <message>
+            <source>turns by {angle:.3f}°, millimetres, LPS as in the file</source>
+            <translation type="unfinished">dreht um {angle:.3f}°, Millimeter, LPS wie in der Datei</translation>
         </message>
         <message>
             <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
@@ -1340,8 +1568,16 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">--origin {origin!r}; gültige Namen: {names}</translation>
         </message>
         <message>
+            <source>{file}: {profile}, world at the {place}</source>
+            <translation type="unfinished">{file}: {profile}, Welt am Ort {place}</translation>
+        </message>
+        <message>
             <source>--out {out}: a device profile is a .yaml file</source>
             <translation type="unfinished">--out {out}: Ein Geräteprofil ist eine .yaml-Datei</translation>
+        </message>
+        <message>
+            <source># Lengths from {file}, all else from the profile {like}. SI units.</source>
+            <translation type="unfinished"># Längen aus {file}, alles andere aus dem Profil {like}. SI-Einheiten.</translation>
         </message>
         <message>
             <source>exercise {name} has no CT in Hounsfield values: nothing tells what its needle meets</source>
@@ -19989,6 +20225,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} files</source>
+            <translation type="unfinished">
+                <numerusform>{n} Datei</numerusform>
+                <numerusform>{n} Dateien</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} files are copies and left out</source>
             <translation type="unfinished">
                 <numerusform>{n} Datei ist eine Kopie und wird ausgelassen</numerusform>
@@ -20643,6 +20886,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">legen Sie den Stift nun in eine Rille und rollen Sie ihn um sich selbst, eine Vierteldrehung oder mehr …</translation>
         </message>
         <message>
+            <source>kept in {path}</source>
+            <translation type="unfinished">aufbewahrt in {path}</translation>
+        </message>
+        <message>
             <source>no files of your own yet; save them in these folders (make what is missing):</source>
             <translation type="unfinished">noch keine eigenen Dateien; speichern Sie sie in diesen Ordnern (legen Sie an, was fehlt):</translation>
         </message>
@@ -20721,6 +20968,26 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>never warns</source>
             <translation type="unfinished">warnt nie</translation>
+        </message>
+        <message>
+            <source>warns within {warn_mm:g} mm</source>
+            <translation type="unfinished">warnt ab {warn_mm:g} mm</translation>
+        </message>
+        <message>
+            <source>{name}  {kind}  {millilitres:.2f} ml  centre LPS {place} mm  {warn}</source>
+            <translation type="unfinished">{name}  {kind}  {millilitres:.2f} ml  Mitte LPS {place} mm  {warn}</translation>
+        </message>
+        <message>
+            <source>at depth {depth_mm:.1f} mm</source>
+            <translation type="unfinished">in {depth_mm:.1f} mm Tiefe</translation>
+        </message>
+        <message>
+            <source>, {inside_mm:.1f} mm inside</source>
+            <translation type="unfinished">, {inside_mm:.1f} mm darin</translation>
+        </message>
+        <message>
+            <source>note  {note}</source>
+            <translation type="unfinished">Anmerkung  {note}</translation>
         </message>
         <message>
             <source>the record was written while it was read</source>
@@ -23945,6 +24212,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
             <translation>Kippung der Gantry: + neigt die Vorderseite der Schichten zum Kopf. Schichten, und was von der Nadel in ihnen liegt, gehen mit</translation>
+        </message>
+        <message>
+            <source>{path}: register() does not work: {text}</source>
+            <translation type="unfinished">{path}: register() geht nicht: {text}</translation>
         </message>
     </context>
 </TS>

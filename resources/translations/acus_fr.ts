@@ -688,8 +688,16 @@
             <translation type="unfinished">{routine_title} : {report_needs} : donnez-le avec --readings</translation>
         </message>
         <message>
+            <source>&gt; {needs} {how}</source>
+            <translation type="unfinished">&gt; {needs} {how}</translation>
+        </message>
+        <message>
             <source>the input has ended before the routine; nothing was kept</source>
             <translation type="unfinished">l’entrée s’est terminée avant la routine ; rien n’a été gardé</translation>
+        </message>
+        <message>
+            <source>{line!r} is not a number in {unit}</source>
+            <translation type="unfinished">{line!r} n’est pas un nombre en {unit}</translation>
         </message>
         <message>
             <source>places        agree within {disagreement_mm:.2f} mm</source>
@@ -732,6 +740,10 @@
             <translation type="unfinished">aucun étalonnage n’est utilisé : exécutez d’abord `acus calibrate stereo --keep`, ou indiquez-en un avec --calibration</translation>
         </message>
         <message>
+            <source>skipped: {name}: its name says none of the two cameras</source>
+            <translation type="unfinished">ignoré : {name} : son nom ne désigne aucune des deux caméras</translation>
+        </message>
+        <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out prend l’objectif d’une seule caméra ; ces images sont de {groups} : donnez un dossier pour chacune, ou utilisez `acus calibrate stereo`</translation>
         </message>
@@ -756,6 +768,10 @@
             <translation type="unfinished">--names {names!r} n’est pas deux noms, p. ex. left,right</translation>
         </message>
         <message>
+            <source>kept {file}</source>
+            <translation type="unfinished">{file} conservé</translation>
+        </message>
+        <message>
             <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
             <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm mis de côté|non vérifié sur des vues mises de côté}  {world:?monde|sans monde}{found_bad:?  JUGÉ MAUVAIS : {found_bad}}}</translation>
         </message>
@@ -764,12 +780,28 @@
             <translation type="unfinished">aucun étalonnage dans {folder}</translation>
         </message>
         <message>
+            <source>found bad     {day}: {reason}</source>
+            <translation type="unfinished">jugé mauvais  {day} : {reason}</translation>
+        </message>
+        <message>
+            <source>  (in use)</source>
+            <translation type="unfinished">  (utilisé)</translation>
+        </message>
+        <message>
+            <source>file          {path}{in_use}</source>
+            <translation type="unfinished">fichier       {path}{in_use}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind} : seuls yaml et ros peuvent être écrits</translation>
         </message>
         <message>
             <source>{id} written to {files}</source>
             <translation type="unfinished">{id} écrit dans {files}</translation>
+        </message>
+        <message>
+            <source>in use from now on; kept as {path}</source>
+            <translation type="unfinished">utilisé désormais ; conservé sous {path}</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
@@ -788,8 +820,44 @@
             <translation type="unfinished">imprimez à 100 %, sans ajuster à la page, et mesurez la ligne de 100 mm</translation>
         </message>
         <message>
+            <source>id            {id}</source>
+            <translation type="unfinished">identifiant   {id}</translation>
+        </message>
+        <message>
+            <source>created       {created:%Y-%m-%d %H:%M} {zone}</source>
+            <translation type="unfinished">créé          {created:%Y-%m-%d %H:%M} {zone}</translation>
+        </message>
+        <message>
+            <source>board         {board}</source>
+            <translation type="unfinished">mire          {board}</translation>
+        </message>
+        <message>
+            <source>{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} views</source>
+            <translation type="unfinished">{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} vues</translation>
+        </message>
+        <message>
+            <source>pair          {rms_px:.3f} px, baseline {baseline_mm:.2f} mm</source>
+            <translation type="unfinished">paire         {rms_px:.3f} px, base {baseline_mm:.2f} mm</translation>
+        </message>
+        <message>
+            <source>held back     {views} pairs: {rms_mm:.3f} mm RMS, largest {max_mm:.3f} mm, scale {scale:.5f} ± {scale_sd:.5f}</source>
+            <translation type="unfinished">mises de côté {views} paires : {rms_mm:.3f} mm RMS, au plus {max_mm:.3f} mm, échelle {scale:.5f} ± {scale_sd:.5f}</translation>
+        </message>
+        <message>
             <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
             <translation type="unfinished">incertitude   l’incertitude propre à l’étalonnage n’est pas connue : aucun rayon indiqué ne la comprend</translation>
+        </message>
+        <message>
+            <source>known</source>
+            <translation type="unfinished">connu</translation>
+        </message>
+        <message>
+            <source>world         {known}</source>
+            <translation type="unfinished">monde         {known}</translation>
+        </message>
+        <message>
+            <source>note          {note}</source>
+            <translation type="unfinished">remarque      {note}</translation>
         </message>
         <message>
             <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
@@ -800,24 +868,100 @@
             <translation type="unfinished">--lens {lens!r} : il y a {known_lenses} ; equidistant est le modèle fisheye</translation>
         </message>
         <message>
+            <source>the picture of rig {name}</source>
+            <translation type="unfinished">l’image du montage {name}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} not used  {text}</source>
+            <translation type="unfinished">{name:&lt;24} non utilisée  {text}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} {corners:&gt;3} corners  squares {square_px:.0f} px  edges {edge_px:.1f} px  window ±{window} px</source>
+            <translation type="unfinished">{name:&lt;24} {corners:&gt;3} coins  cases {square_px:.0f} px  bords {edge_px:.1f} px  fenêtre ±{window} px</translation>
+        </message>
+        <message>
+            <source>  views held back      {rms_px:.4f} px</source>
+            <translation type="unfinished">  vues mises de côté   {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>calibration {id}, {board}</source>
+            <translation type="unfinished">étalonnage {id}, {board}</translation>
+        </message>
+        <message>
+            <source>  by itself {rms_px:.4f} px</source>
+            <translation type="unfinished">  seule {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>both     {rms_px:.4f} px RMS over {pairs} pairs</source>
+            <translation type="unfinished">les deux {rms_px:.4f} px RMS sur {pairs} paires</translation>
+        </message>
+        <message>
+            <source>  T_right_left {place} mm ± {sd}; baseline {baseline_mm:.3f} mm</source>
+            <translation type="unfinished">  T_right_left {place} mm ± {sd} ; base {baseline_mm:.3f} mm</translation>
+        </message>
+        <message>
+            <source>  agrees: {text}</source>
+            <translation type="unfinished">  concorde : {text}</translation>
+        </message>
+        <message>
+            <source>  CONTRADICTS: {text}</source>
+            <translation type="unfinished">  CONTREDIT : {text}</translation>
+        </message>
+        <message>
             <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
             <translation type="unfinished">  non vérifié : la taille de la mire ; indiquez --baseline-mm ou une seconde mire (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>verdict: {grade}: {text}</source>
+            <translation type="unfinished">verdict : {grade} : {text}</translation>
+        </message>
+        <message>
+            <source>  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px</source>
+            <translation type="unfinished">  Méthode simple d’OpenCV (toutes les vues, cinq coefficients) : {rms_px:.4f} px</translation>
         </message>
         <message>
             <source>  not validated: no pairs were held back (--hold-back N)</source>
             <translation type="unfinished">  non validé : aucune paire n’a été mise de côté (--hold-back N)</translation>
         </message>
         <message>
+            <source>  {views} pairs held back: corners within {rms_mm:.3f} mm RMS (at most {max_mm:.3f} mm) of the true board, lengths x {scale:.5f} ± {scale_sd:.5f}, epipolar {epipolar_px:.3f} px</source>
+            <translation type="unfinished">  {views} paires mises de côté : coins à {rms_mm:.3f} mm RMS (au plus {max_mm:.3f} mm) de la vraie mire, longueurs × {scale:.5f} ± {scale_sd:.5f}, épipolaire {epipolar_px:.3f} px</translation>
+        </message>
+        <message>
+            <source>{name:&lt;8} {rms_px:.4f} px RMS over {views} views of {width}x{height}</source>
+            <translation type="unfinished">{name:&lt;8} {rms_px:.4f} px RMS sur {views} vues de {width}x{height}</translation>
+        </message>
+        <message>
+            <source>  {name}  {zero:&gt;12} (not supported by the views)</source>
+            <translation type="unfinished">  {name}  {zero:&gt;12} (non étayé par les vues)</translation>
+        </message>
+        <message>
             <source>left out</source>
             <translation type="unfinished">écarté</translation>
+        </message>
+        <message>
+            <source>  {name:&lt;32} not used: {text}</source>
+            <translation type="unfinished">  {name:&lt;32} non utilisée : {text}</translation>
         </message>
         <message>
             <source>no camera is plugged in</source>
             <translation type="unfinished">aucune caméra n’est branchée</translation>
         </message>
         <message>
+            <source>{side}: {lack}; saved all the same, for when it is</source>
+            <translation type="unfinished">{side} : {lack} ; enregistré tout de même, pour plus tard</translation>
+        </message>
+        <message>
+            <source>warning: {text}</source>
+            <translation type="unfinished">avertissement : {text}</translation>
+        </message>
+        <message>
             <source>saved in {file}</source>
             <translation type="unfinished">enregistré dans {file}</translation>
+        </message>
+        <message>
+            <source>skew (right after left): {skew:.1f} ms</source>
+            <translation type="unfinished">décalage (droite après gauche) : {skew:.1f} ms</translation>
         </message>
         <message>
             <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
@@ -856,8 +1000,24 @@
             <translation type="unfinished">ceux de la livraison, moins la latence</translation>
         </message>
         <message>
+            <source>{name}: {width}x{height}, {rate:.1f} pictures/s, jitter {jitter_ms:.1f} ms, {repeated:.1f} % repeated</source>
+            <translation type="unfinished">{name} : {width}x{height}, {rate:.1f} images/s, gigue {jitter_ms:.1f} ms, {repeated:.1f} % répétées</translation>
+        </message>
+        <message>
+            <source>  brightness {brightness:.0f} of 255, {saturated:.1f} % overexposed, noise {noise:.1f} grey values</source>
+            <translation type="unfinished">  luminosité {brightness:.0f} sur 255, {saturated:.1f} % surexposé, bruit {noise:.1f} niveaux de gris</translation>
+        </message>
+        <message>
+            <source>  capture times: {times}; {age_ms:.0f} ms to delivery</source>
+            <translation type="unfinished">  instants de prise : {times} ; {age_ms:.0f} ms jusqu’à la livraison</translation>
+        </message>
+        <message>
             <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
             <translation type="unfinished">couleur du marqueur : le rouge habituel (dans le panneau du suivi, Capter en prend une autre)</translation>
+        </message>
+        <message>
+            <source>marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within {angle:.0f}° (`acus camera use --forget-colour` goes back to the usual red)</source>
+            <translation type="unfinished">couleur du marqueur : apprise, rouge {red:.0f} vert {green:.0f} bleu {blue:.0f}, à {angle:.0f}° près (`acus camera use --forget-colour` revient au rouge habituel)</translation>
         </message>
         <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
@@ -880,12 +1040,28 @@
             <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} UH|pas d’UH : remplissage, rien n’y a été mesuré}</translation>
         </message>
         <message>
+            <source>values  sha256 {values} of {size} {kind}</source>
+            <translation type="unfinished">valeurs  sha256 {values} de {size} {kind}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r} : trois nombres X,Y,Z en mm</translation>
         </message>
         <message>
+            <source>opens with --remedy {remedy}</source>
+            <translation type="unfinished">s’ouvre avec --remedy {remedy}</translation>
+        </message>
+        <message>
             <source>the library is empty; `acus ct import DIR` takes a CT in</source>
             <translation type="unfinished">la bibliothèque est vide ; `acus ct import DIR` y ajoute un scanner</translation>
+        </message>
+        <message>
+            <source>{name}: {label}, {files}: {words}</source>
+            <translation type="unfinished">{name} : {label}, {files} : {words}</translation>
+        </message>
+        <message>
+            <source>; it opens with --remedy {remedy}</source>
+            <translation type="unfinished"> ; il s’ouvre avec --remedy {remedy}</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -904,12 +1080,52 @@
             <translation type="unfinished">{option} {argument!r} n’est pas {form} : {count} nombres entiers, sans espaces</translation>
         </message>
         <message>
+            <source>usable </source>
+            <translation type="unfinished">lisible </translation>
+        </message>
+        <message>
+            <source>refused</source>
+            <translation type="unfinished">refusée</translation>
+        </message>
+        <message>
+            <source>spacing {spacing} mm</source>
+            <translation type="unfinished">espacement {spacing} mm</translation>
+        </message>
+        <message>
+            <source>origin {origin} mm</source>
+            <translation type="unfinished">origine {origin} mm</translation>
+        </message>
+        <message>
+            <source>direction {direction}</source>
+            <translation type="unfinished">direction {direction}</translation>
+        </message>
+        <message>
+            <source>on request: {remedies}</source>
+            <translation type="unfinished">sur demande : {remedies}</translation>
+        </message>
+        <message>
             <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
             <translation type="unfinished">aucun port série ; branchez le robot ou essayez `acus device emulate`</translation>
         </message>
         <message>
+            <source>(the board does not say)</source>
+            <translation type="unfinished">(la carte ne le dit pas)</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">le robot a répondu mais n’envoie pas d’angles articulaires ; voir `acus device test`</translation>
+        </message>
+        <message>
+            <source>cleared for {force:g} N</source>
+            <translation type="unfinished">autorisé jusqu’à {force:g} N</translation>
+        </message>
+        <message>
+            <source>device     {device}: {text}</source>
+            <translation type="unfinished">appareil   {device} : {text}</translation>
+        </message>
+        <message>
+            <source>not understood: {error}</source>
+            <translation type="unfinished">non compris : {error}</translation>
         </message>
         <message>
             <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
@@ -974,6 +1190,10 @@
         <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} touchés, {picked} désignés  {rig}  {trusted:?bon|ne convient pas}</translation>
+        </message>
+        <message>
+            <source>no registration checks in {folder}</source>
+            <translation type="unfinished">aucune vérification du recalage dans {folder}</translation>
         </message>
         <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
@@ -1324,12 +1544,20 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">les tableaux et les images sont dans {folder}</translation>
         </message>
         <message>
+            <source>cannot be used: {error}</source>
+            <translation type="unfinished">inutilisable : {error}</translation>
+        </message>
+        <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r} : utilisez {valid}</translation>
         </message>
         <message>
             <source>{files}: from world (robot) to patient (LPS)</source>
             <translation type="unfinished">{files} : du monde (robot) au patient (LPS)</translation>
+        </message>
+        <message>
+            <source>turns by {angle:.3f}°, millimetres, LPS as in the file</source>
+            <translation type="unfinished">tourne de {angle:.3f}°, millimètres, LPS comme dans le fichier</translation>
         </message>
         <message>
             <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
@@ -1340,8 +1568,16 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">--origin {origin!r} ; noms valides : {names}</translation>
         </message>
         <message>
+            <source>{file}: {profile}, world at the {place}</source>
+            <translation type="unfinished">{file} : {profile}, monde en {place}</translation>
+        </message>
+        <message>
             <source>--out {out}: a device profile is a .yaml file</source>
             <translation type="unfinished">--out {out} : un profil d’appareil est un fichier .yaml</translation>
+        </message>
+        <message>
+            <source># Lengths from {file}, all else from the profile {like}. SI units.</source>
+            <translation type="unfinished"># Longueurs de {file}, le reste du profil {like}. Unités SI.</translation>
         </message>
         <message>
             <source>exercise {name} has no CT in Hounsfield values: nothing tells what its needle meets</source>
@@ -19989,6 +20225,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} files</source>
+            <translation type="unfinished">
+                <numerusform>{n} fichier</numerusform>
+                <numerusform>{n} fichiers</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} files are copies and left out</source>
             <translation type="unfinished">
                 <numerusform>{n} fichier est une copie et est écarté</numerusform>
@@ -20643,6 +20886,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">posez maintenant le stylo dans une rainure et roulez-le sur lui-même d’un quart de tour ou plus…</translation>
         </message>
         <message>
+            <source>kept in {path}</source>
+            <translation type="unfinished">conservé dans {path}</translation>
+        </message>
+        <message>
             <source>no files of your own yet; save them in these folders (make what is missing):</source>
             <translation type="unfinished">pas encore de fichiers à vous ; enregistrez-les dans ces dossiers (créez ce qui manque) :</translation>
         </message>
@@ -20721,6 +20968,26 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>never warns</source>
             <translation type="unfinished">n’avertit jamais</translation>
+        </message>
+        <message>
+            <source>warns within {warn_mm:g} mm</source>
+            <translation type="unfinished">avertit à moins de {warn_mm:g} mm</translation>
+        </message>
+        <message>
+            <source>{name}  {kind}  {millilitres:.2f} ml  centre LPS {place} mm  {warn}</source>
+            <translation type="unfinished">{name}  {kind}  {millilitres:.2f} ml  centre LPS {place} mm  {warn}</translation>
+        </message>
+        <message>
+            <source>at depth {depth_mm:.1f} mm</source>
+            <translation type="unfinished">à {depth_mm:.1f} mm de profondeur</translation>
+        </message>
+        <message>
+            <source>, {inside_mm:.1f} mm inside</source>
+            <translation type="unfinished">, {inside_mm:.1f} mm à l’intérieur</translation>
+        </message>
+        <message>
+            <source>note  {note}</source>
+            <translation type="unfinished">remarque  {note}</translation>
         </message>
         <message>
             <source>the record was written while it was read</source>
@@ -23945,6 +24212,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
             <translation>Inclinaison du statif : + penche l’avant des coupes vers la tête. Les coupes, et ce qui y est de l’aiguille, suivent</translation>
+        </message>
+        <message>
+            <source>{path}: register() does not work: {text}</source>
+            <translation type="unfinished">{path} : register() ne fonctionne pas : {text}</translation>
         </message>
     </context>
 </TS>
