@@ -16,6 +16,7 @@ from app.views.exercise.controller import LIGHT_MS, PERIOD_MS, SHOWN_S
 from app.views.exercise.readings import problem
 from app.views.exercise.status_items import tracker_item
 from app.views.exercise.steps import step_words
+from app.views.kit.verdict import StatusItem, Verdict
 
 PERIOD = 0.016
 
@@ -253,4 +254,21 @@ def test_the_light_and_the_rail_say_what_to_do_about_a_busy_computer(qt):
     for has_scene in (True, False):
         rail.set_busy(True, has_scene)
         assert "Close other programs" in rail._busy.text()
+    rail.deleteLater()
+
+
+def test_a_slowed_world_is_told_once_and_not_as_a_fault_of_cameras_besides(qt):
+    """Seen: two notes, one of them that simulated cameras' pictures come late."""
+    rail = AttemptRail()
+    late = StatusItem(Verdict.WARNING, "Depth", "held, 149 ms old", plain="measured a moment ago")
+    gone = StatusItem(Verdict.BAD, "Depth", "lost", plain="not known")
+    rail.show_health([late], None)
+    assert "Depth" in rail._health.text()
+    rail.set_slowed(0.2)
+    rail.show_health([late], None)
+    assert rail._health.text() == ""
+    rail.show_health([late], late)  # the robot's own word stays
+    assert rail._health.text()
+    rail.show_health([gone], None)
+    assert "not known" in rail._health.text()
     rail.deleteLater()
