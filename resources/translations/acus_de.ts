@@ -1644,12 +1644,12 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">die Schleife wird übersetzt: {waited:.0f} s</translation>
         </message>
         <message>
-            <source>starting robot and cameras</source>
-            <translation type="unfinished">Roboter und Kameras werden gestartet</translation>
+            <source>waiting for the first picture</source>
+            <translation type="unfinished">warten auf das erste Bild</translation>
         </message>
         <message>
-            <source>starting robot and cameras: {waited:.0f} s</source>
-            <translation type="unfinished">Roboter und Kameras starten: {waited:.0f} s</translation>
+            <source>waiting for the first picture: {waited:.0f} s</source>
+            <translation type="unfinished">warten auf das erste Bild: {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>

@@ -1644,12 +1644,12 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">compilation de la boucle : {waited:.0f} s</translation>
         </message>
         <message>
-            <source>starting robot and cameras</source>
-            <translation type="unfinished">démarrage du robot et des caméras</translation>
+            <source>waiting for the first picture</source>
+            <translation type="unfinished">attente de la première image</translation>
         </message>
         <message>
-            <source>starting robot and cameras: {waited:.0f} s</source>
-            <translation type="unfinished">démarrage du robot et des caméras : {waited:.0f} s</translation>
+            <source>waiting for the first picture: {waited:.0f} s</source>
+            <translation type="unfinished">attente de la première image : {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>

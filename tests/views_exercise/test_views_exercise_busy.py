@@ -272,3 +272,17 @@ def test_a_slowed_world_is_told_once_and_not_as_a_fault_of_cameras_besides(qt):
     rail.show_health([gone], None)
     assert "not known" in rail._health.text()
     rail.deleteLater()
+
+
+def test_a_window_that_is_late_in_a_slowed_world_is_late_by_that_worlds_time(desk, monkeypatch):
+    """Seen: "Robot stopped: computer busy" beside a robot whose time had waited for the window."""
+    silent = []
+    show = lambda run, shown, now, late: silent.append(late)  # noqa: E731
+    monkeypatch.setattr(desk.controller._display, "show", show)
+    trainer = desk.trainer
+    trainer.now, trainer.paced = snapshot(trainer.placed, state=State.ALIGNING), 100.0
+    look(desk, 1, 1.6)
+    assert silent[-1] == pytest.approx(0.016)
+    trainer.paced = None  # a robot on the wall's time has missed it
+    look(desk, 1, 1.6)
+    assert silent[-1] == pytest.approx(1.6)
