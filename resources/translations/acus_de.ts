@@ -21118,6 +21118,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Ganze Eingriffe</translation>
         </message>
         <message>
+            <source>Research</source>
+            <translation type="unfinished">Forschung</translation>
+        </message>
+        <message>
             <source>Research machines</source>
             <translation type="unfinished">Forschungsgeräte</translation>
         </message>

@@ -21118,6 +21118,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>Interventions entières</translation>
         </message>
         <message>
+            <source>Research</source>
+            <translation type="unfinished">Recherche</translation>
+        </message>
+        <message>
             <source>Research machines</source>
             <translation type="unfinished">Pour la recherche</translation>
         </message>

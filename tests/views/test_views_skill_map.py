@@ -71,6 +71,17 @@ def test_research_machines_stand_on_a_shelf_of_their_own_at_the_end(page):
     assert all(place.x() > end for place in shelf)
 
 
+def test_no_name_of_a_skill_is_cut_on_a_laptop(page):
+    """Seen: "Research m…" over the shelf."""
+    headings = {group.skill: group.heading for group in page[0].map._groups if group.places}
+    assert PractisedSkill.MACHINE in headings
+    for heading in headings.values():
+        assert "…" not in heading.text()
+    shelf = headings[PractisedSkill.MACHINE]
+    assert shelf.text() == "Research"
+    assert shelf.toolTip() == "Research machines"
+
+
 def test_all_of_it_is_seen_at_once_and_no_place_lies_on_another(page):
     start, _ = page
     boxes = [place.geometry() for place in start.map.places.values()]
