@@ -12998,8 +12998,8 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Diese Übung vormachen</translation>
         </message>
         <message>
-            <source>difficulty {n} of {most}</source>
-            <translation type="unfinished">Schwierigkeit {n} von {most}</translation>
+            <source>level {n} of {most}</source>
+            <translation type="unfinished">Stufe {n} von {most}</translation>
         </message>
         <message>
             <source>Assessment</source>

@@ -12998,8 +12998,8 @@ Lettres : directions du patient
             <translation type="unfinished">Montrez-moi cet exercice</translation>
         </message>
         <message>
-            <source>difficulty {n} of {most}</source>
-            <translation type="unfinished">difficulté {n} sur {most}</translation>
+            <source>level {n} of {most}</source>
+            <translation type="unfinished">niveau {n} sur {most}</translation>
         </message>
         <message>
             <source>Assessment</source>

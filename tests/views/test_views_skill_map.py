@@ -199,10 +199,10 @@ def test_a_screen_reader_hears_title_level_and_how_far_one_has_come(page):
     places = start.map.places
     start.set_standings({"kidney": Standing(3, 81.6, True, 1, 0)}, "thick-tissue", "Whose")
     assert heard(places["kidney"]) == (
-        "Kidney from behind, difficulty 3 of 9, done 3, best 82 of 100, passed once: one more "
+        "Kidney from behind, level 3 of 9, done 3, best 82 of 100, passed once: one more "
         "pass in a row masters it"
     )
-    assert heard(places["thick-tissue"]) == "Thick tissue, next, difficulty 2 of 9, not begun"
+    assert heard(places["thick-tissue"]) == "Thick tissue, next, level 2 of 9, not begun"
     assert heard(start.begin) == "Continue: Thick tissue"
     assert "passed once" in places["kidney"].toolTip()
     assert start.whose.text() == "Whose"

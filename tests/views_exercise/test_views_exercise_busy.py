@@ -260,8 +260,10 @@ def test_the_light_and_the_rail_say_what_to_do_about_a_busy_computer(qt):
 def test_a_slowed_world_is_told_once_and_not_as_a_fault_of_cameras_besides(qt):
     """Seen: two notes, one of them that simulated cameras' pictures come late."""
     rail = AttemptRail()
-    late = StatusItem(Verdict.WARNING, "Depth", "held, 149 ms old", plain="measured a moment ago")
-    gone = StatusItem(Verdict.BAD, "Depth", "lost", plain="not known")
+    late = StatusItem(
+        Verdict.WARNING, "Depth", "held, 149 ms old", "help", plain="measured a moment ago"
+    )
+    gone = StatusItem(Verdict.BAD, "Depth", "lost", "help", plain="not known")
     rail.show_health([late], None)
     assert "Depth" in rail._health.text()
     rail.set_slowed(0.2)

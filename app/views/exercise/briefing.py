@@ -42,7 +42,7 @@ HARDEST = 9
 # --- words ------------------------------------------------------------------------------------
 def level_words(level: int) -> str:
     """Say a level in words, for those who do not see the discs."""
-    return tr("difficulty {n} of {most}", n=level, most=HARDEST)
+    return tr("level {n} of {most}", n=level, most=HARDEST)
 
 
 def kind_words(exercise: Exercise) -> str:
