@@ -263,7 +263,7 @@ def force_place(area: PadArea, end: QPointF, size: QSizeF, taken: Sequence[QRect
     for far in np.arange(reach, 2.0 * area.radius, 6.0):
         for angle in turn + np.radians((0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0)):
             box = QRectF(QPointF(), size)
-            box.moveCenter(end + far * QPointF(float(np.cos(angle)), float(np.sin(angle))))
+            box.moveCenter(end + QPointF(float(far * np.cos(angle)), float(far * np.sin(angle))))
             if is_inside(box, area) and not any(box.intersects(other) for other in taken):
                 return box
     box = QRectF(QPointF(), size)

@@ -447,7 +447,8 @@ class ExerciseController(QObject):
             for it, has missed no more; None where time goes by the wall.
         """
         by_hand = run.interactive and not (run.demonstrates or self._led_as)
-        share, silent = 1.0, None
+        share = 1.0
+        silent: float | None = None
         if by_hand and snapshot.state in RUNNING:
             silent = run.trainer.lead(SHOWN_S)
         if silent is not None:

@@ -27,7 +27,7 @@ from PySide6.QtWidgets import (
 from app.views.kit import theme
 from app.views.kit.text import keys_text, literal, tr
 
-_WRAPPED: Final = Qt.TextFlag.TextWordWrap | Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
+_WRAPPED: Final = int(Qt.TextFlag.TextWordWrap)
 
 
 class PlainLabel(QLabel):
