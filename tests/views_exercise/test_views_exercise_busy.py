@@ -272,7 +272,7 @@ def test_a_slowed_world_is_told_once_and_not_as_a_fault_of_cameras_besides(qt):
     rail.show_health([late], late)  # the robot's own word stays
     assert rail._health.text()
     rail.show_health([gone], None)
-    assert "not known" in rail._health.text()
+    assert "lost" in rail._health.text()
     rail.deleteLater()
 
 
