@@ -71,13 +71,17 @@ def _about_numbers(tree: ast.Module) -> Iterator[str]:
 def unmarked_texts(tree: ast.Module) -> list[str]:
     """Return the literal texts of a module of commands that no reader of another language gets.
 
-    Looked at are texts with a blank between words, as parts of code that runs; help stays English.
+    Looked at are texts with a blank between words, as parts of code that runs; help stays English,
+    and so do the command's own name, orders to it (`acus camera use`) and names of threads and
+    variables.
     """
     marked: list[ast.AST] = []
     for node in ast.walk(tree):
         name = getattr(getattr(node, "func", None), "id", "")
-        if isinstance(node, ast.Call) and name in ("sentence", "template", *COUNTING):
+        if isinstance(node, ast.Call) and name in ("sentence", "template", "ContextVar", *COUNTING):
             marked += node.args
+        if _is_help(node):
+            marked.append(node)
         if isinstance(node, ast.Expr) or getattr(node, "arg", "") in ("help", "metavar"):
             marked += [
                 part for part in ast.iter_child_nodes(node) if isinstance(part, ast.Constant)
@@ -92,7 +96,18 @@ def unmarked_texts(tree: ast.Module) -> list[str]:
         and isinstance(node.value, str)
         and id(node) not in left_out
     ]
-    return [text for text in texts if re.search(r"[a-z]{2,} +[a-z]{2,}|^ ?[a-z]{3,} $", text)]
+    return [
+        text
+        for text in texts
+        if re.search(r"[a-z]{2,} +[a-z]{2,}|^ ?[a-z]{3,} $", text) and not text.startswith("acus ")
+    ]
+
+
+def _is_help(node: ast.AST) -> bool:
+    """Return whether a part of a module makes a text of `--help`, by its name."""
+    named = isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
+    name = node.targets[0].id if named else getattr(node, "name", "")
+    return isinstance(node, ast.Assign | ast.FunctionDef) and "help" in name.lower()
 
 
 def _titles(tree: ast.Module) -> Iterator[str]:

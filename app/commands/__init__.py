@@ -16,6 +16,7 @@ import typer
 from app import __version__
 from app.commands.answer import Commands
 from app.core import plugin_folders
+from app.core.messages import sentence
 
 _MARK = b"\ndef register("
 
@@ -60,7 +61,9 @@ def _register(added: ModuleType, root: typer.Typer) -> None:
         raise
     except BaseException as error:  # SystemExit too: whatever somebody's file does
         text = f"{type(error).__name__}: {error}".rstrip(": ")
-        plugin_folders.refused[path] = f"{path}: register() does not work: {text}"
+        plugin_folders.refused[path] = sentence(
+            "{path}: register() does not work: {text}", path=path, text=text
+        )
         return
     if taken:
         plugin_folders.refused[path] = f"{path}: `acus {min(taken)}` is there already; rename it"

@@ -9,8 +9,7 @@ from math import isfinite
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
-import typer
-
+from app.commands.reader_language import tell
 from app.core.errors import AcusError
 from app.core.messages import sentence
 
@@ -85,7 +84,7 @@ class Answers:
         if not self._asked:
             self._asked = True
             how = f"[{report.unit}]" if report.unit else "[Enter]"
-            typer.echo(f"> {report.needs} {how}", err=to_stderr)
+            tell(sentence("> {needs} {how}", needs=report.needs, how=how), err=to_stderr)
             threading.Thread(target=self._read, name="acus answers", daemon=True).start()
         return self._understood(report, to_stderr)
 
@@ -105,7 +104,10 @@ class Answers:
             value = float("nan")
         if isfinite(value):
             return value
-        typer.echo(f"{line.strip()!r} is not a number in {report.unit}", err=to_stderr)
+        tell(
+            sentence("{line!r} is not a number in {unit}", line=line.strip(), unit=report.unit),
+            err=to_stderr,
+        )
         return None
 
     def _read(self) -> None:

@@ -260,7 +260,10 @@ def mono(
         ]
 
     for path in strays:
-        typer.echo(f"skipped: {path.name}: its name says none of the two cameras", err=True)
+        tell(
+            sentence("skipped: {name}: its name says none of the two cameras", name=path.name),
+            err=True,
+        )
     if out is not None and len(groups) != 1:
         raise ConfigurationError(
             sentence(
@@ -272,7 +275,7 @@ def mono(
     found = with_progress(work)
     if out is not None:
         save_camera(out, found[0].result.calibration)
-        typer.echo(f"wrote {out}", err=True)
+        tell(sentence("wrote {file}", file=out), err=True)
     facts = {"board": known.spec, "cameras": [mono_document(one) for one in found]}
     return Answer(facts, [line for one in found for line in mono_lines(one)])
 
@@ -447,6 +450,7 @@ def _write(result: "StereoSet", out: Path | None, keep: bool) -> None:
 
     if out is not None:
         save_calibration(out, result.calibration)
-        typer.echo(f"wrote {out}", err=True)
+        tell(sentence("wrote {file}", file=out), err=True)
     if keep:
-        typer.echo(f"kept {CalibrationHistory().keep(result.calibration)}", err=True)
+        kept = CalibrationHistory().keep(result.calibration)
+        tell(sentence("kept {file}", file=kept), err=True)

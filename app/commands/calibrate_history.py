@@ -49,8 +49,15 @@ def show(calibration_id: Id) -> Answer:
     content = calibration.model_dump(mode="json")
     lines = calibration_lines(calibration)
     if entry.rejected is not None:
-        lines.append(f"found bad     {entry.rejected.date:%Y-%m-%d}: {entry.rejected.reason}")
-    lines.append(f"file          {entry.path}{'  (in use)' if entry.active else ''}")
+        lines.append(
+            sentence(
+                "found bad     {day}: {reason}",
+                day=entry.rejected.date.date(),
+                reason=entry.rejected.reason,
+            )
+        )
+    in_use = sentence("  (in use)") if entry.active else ""
+    lines.append(sentence("file          {path}{in_use}", path=entry.path, in_use=in_use))
     return Answer(entry_document(history, entry) | {"calibration": content}, lines)
 
 
@@ -156,7 +163,10 @@ def import_(
     path = _history().keep(calibration)
     return Answer(
         {"file": str(path), "calibration": calibration.model_dump(mode="json")},
-        [*calibration_lines(calibration), f"in use from now on; kept as {path}"],
+        [
+            *calibration_lines(calibration),
+            sentence("in use from now on; kept as {path}", path=path),
+        ],
     )
 
 
@@ -228,27 +238,50 @@ def entry_document(history: "CalibrationHistory", entry: "KeptCalibration") -> d
 
 def calibration_lines(calibration: "StereoCalibration") -> list[str]:
     """Return what a calibration says, for people, one line each."""
-    lines = [
-        f"id            {calibration.id}",
-        f"created       {calibration.created:%Y-%m-%d %H:%M %Z}",
-        f"board         {calibration.board or 'not known'}",
+    lines: list[str] = [
+        sentence("id            {id}", id=calibration.id),
+        sentence(
+            "created       {created:%Y-%m-%d %H:%M} {zone}",
+            created=calibration.created,
+            zone=f"{calibration.created:%Z}",
+        ),
+        sentence("board         {board}", board=calibration.board or sentence("not known")),
     ]
     for camera in calibration.cameras:
         width, height = camera.image_size
         (fx, fy), (cx, cy) = camera.focal_px, camera.centre_px
         names = " ".join(camera.lens.coefficients)
         bends = " ".join(f"{value:.4g}" for value in camera.distortion)
+        lens = f"f {fx:.2f} {fy:.2f}  c {cx:.2f} {cy:.2f}  {names} {bends}"
         lines.append(
-            f"{camera.name:13} {width}x{height}  f {fx:.2f} {fy:.2f}  c {cx:.2f} {cy:.2f}  "
-            f"{names} {bends}  {camera.rms_px:.3f} px, {camera.views} views"
+            sentence(
+                "{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} views",
+                camera=camera.name,
+                width=width,
+                height=height,
+                lens=lens,
+                rms_px=camera.rms_px,
+                views=camera.views,
+            )
         )
     lines.append(
-        f"pair          {calibration.rms_px:.3f} px, baseline {calibration.baseline * 1e3:.2f} mm"
+        sentence(
+            "pair          {rms_px:.3f} px, baseline {baseline_mm:.2f} mm",
+            rms_px=calibration.rms_px,
+            baseline_mm=calibration.baseline * 1e3,
+        )
     )
     if (checked := calibration.validation) is not None:
         lines.append(
-            f"held back     {checked.views} pairs: {checked.rms_mm:.3f} mm RMS, largest "
-            f"{checked.max_mm:.3f} mm, scale {checked.scale:.5f} ± {checked.scale_sd:.5f}"
+            sentence(
+                "held back     {views} pairs: {rms_mm:.3f} mm RMS, largest {max_mm:.3f} mm, "
+                "scale {scale:.5f} ± {scale_sd:.5f}",
+                views=checked.views,
+                rms_mm=checked.rms_mm,
+                max_mm=checked.max_mm,
+                scale=checked.scale,
+                scale_sd=checked.scale_sd,
+            )
         )
     if not calibration.uncertainty_known:
         lines.append(
@@ -257,8 +290,9 @@ def calibration_lines(calibration: "StereoCalibration") -> list[str]:
                 "leaves it out"
             )
         )
-    lines.append(f"world         {'known' if calibration.world else 'not known'}")
-    return lines + [f"note          {note}" for note in calibration.notes]
+    world = sentence("known") if calibration.world else sentence("not known")
+    lines.append(sentence("world         {known}", known=world))
+    return lines + [sentence("note          {note}", note=note) for note in calibration.notes]
 
 
 def _history() -> "CalibrationHistory":

@@ -8,7 +8,7 @@ import typer
 
 from app.commands.answer import Commands, wants_json
 from app.commands.reader_language import local
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -101,7 +101,9 @@ def region_of(rig: str, calibration: "StereoCalibration") -> "Region | None":
 
     profile = load_rig(rig)
     for camera, model in zip(calibration.cameras, profile.models, strict=True):
-        require_size(camera, model.image_size, f"the picture of rig {profile.name}")
+        require_size(
+            camera, model.image_size, sentence("the picture of rig {name}", name=profile.name)
+        )
     models = profile.models if calibration.world is None else calibration.models()
     fulcrum = load_profile("icube").fulcrum
     return view_cone(models, profile.needle, profile.range, fulcrum).outlines
@@ -131,10 +133,15 @@ def view_line(view: "BoardView | Rejection") -> str:
     from app.tracking.calibration.views import Rejection
 
     if isinstance(view, Rejection):
-        return f"{view.name:<24} not used  {view.text}"
-    return (
-        f"{view.name:<24} {view.ids.size:>3} corners  squares {view.square_px:.0f} px  "
-        f"edges {view.sharpness:.1f} px  window ±{view.window} px"
+        return sentence("{name:<24} not used  {text}", name=view.name, text=view.text)
+    return sentence(
+        "{name:<24} {corners:>3} corners  squares {square_px:.0f} px  edges {edge_px:.1f} px  "
+        "window ±{window} px",
+        name=view.name,
+        corners=view.ids.size,
+        square_px=view.square_px,
+        edge_px=view.sharpness,
+        window=view.window,
     )
 
 
@@ -220,9 +227,10 @@ def mono_lines(outcome: "MonoSet") -> list[str]:
     lines = [_camera_line(camera), *_parameter_lines(camera)]
     lines += _plain_line(result.usual_rms_px)
     if result.held_back_rms_px is not None:
-        lines.append(f"  views held back      {result.held_back_rms_px:.4f} px")
+        rms_px = result.held_back_rms_px
+        lines.append(sentence("  views held back      {rms_px:.4f} px", rms_px=rms_px))
     lines += _residual_lines(result.residuals)
-    return lines + _refused(outcome.read) + [f"  {note}" for note in result.notes]
+    return lines + _refused(outcome.read) + _indented(result.notes)
 
 
 def stereo_lines(
@@ -230,22 +238,37 @@ def stereo_lines(
 ) -> list[str]:
     """Two cameras for people."""
     calibration, estimate = outcome.calibration, outcome.result.estimate
-    lines = [f"calibration {calibration.id}, {calibration.board}"]
+    lines: list[str] = [
+        sentence("calibration {id}, {board}", id=calibration.id, board=calibration.board)
+    ]
     for camera, mono in zip(calibration.cameras, (estimate.left, estimate.right), strict=True):
         lines += [_camera_line(camera), *_parameter_lines(camera)]
-        lines.append(f"  by itself {mono.calibration.rms_px:.4f} px")
+        alone_px = mono.calibration.rms_px
+        lines.append(sentence("  by itself {rms_px:.4f} px", rms_px=alone_px))
         lines += _plain_line(mono.usual_rms_px)
     sd = _sd(calibration.pose.covariance)
     x, y, z = calibration.pose.translation_mm
     lines += [
-        f"both     {calibration.rms_px:.4f} px RMS over {len(estimate.pairs)} pairs",
-        f"  T_right_left ({x:.3f}, {y:.3f}, {z:.3f}) mm ± "
-        + ", ".join(f"{1e3 * value:.3f}" for value in sd[:3])
-        + f"; baseline {calibration.baseline * 1e3:.3f} mm",
+        sentence(
+            "both     {rms_px:.4f} px RMS over {pairs} pairs",
+            rms_px=calibration.rms_px,
+            pairs=len(estimate.pairs),
+        ),
+        sentence(
+            "  T_right_left {place} mm ± {sd}; baseline {baseline_mm:.3f} mm",
+            place=f"({x:.3f}, {y:.3f}, {z:.3f})",
+            sd=", ".join(f"{1e3 * value:.3f}" for value in sd[:3]),
+            baseline_mm=calibration.baseline * 1e3,
+        ),
     ]
     lines += _plain_line(estimate.usual_rms_px)
     lines += _validation_lines(outcome)
-    lines += [f"  {'agrees' if check.passed else 'CONTRADICTS'}: {check.text}" for check in checks]
+    lines += [
+        sentence("  agrees: {text}", text=check.text)
+        if check.passed
+        else sentence("  CONTRADICTS: {text}", text=check.text)
+        for check in checks
+    ]
     if not checks:
         lines.append(
             sentence(
@@ -254,14 +277,24 @@ def stereo_lines(
             )
         )
     lines += _residual_lines(outcome.result.residuals)
-    lines += _refused(outcome.read) + [f"  {note}" for note in calibration.notes]
-    return [*lines, f"verdict: {verdict.grade.value}: {verdict.text}"]
+    lines += _refused(outcome.read) + _indented(calibration.notes)
+    grade = verdict.grade.value
+    return [*lines, sentence("verdict: {grade}: {text}", grade=grade, text=verdict.text)]
+
+
+def _indented(notes: "Sequence[str]") -> list[str]:
+    return [joined("", ("  ", note)) for note in notes]
 
 
 def _plain_line(rms_px: float | None) -> list[str]:
     if rms_px is None:
         return []
-    return [f"  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px"]
+    return [
+        sentence(
+            "  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px",
+            rms_px=rms_px,
+        )
+    ]
 
 
 def _validation_lines(result: "StereoSet") -> list[str]:
@@ -269,16 +302,29 @@ def _validation_lines(result: "StereoSet") -> list[str]:
     if value is None:
         return [sentence("  not validated: no pairs were held back (--hold-back N)")]
     return [
-        f"  {value.views} pairs held back: corners within {value.rms_mm:.3f} mm RMS (at most "
-        f"{value.max_mm:.3f} mm) of the true board, lengths x {value.scale:.5f} ± "
-        f"{value.scale_sd:.5f}, epipolar {value.epipolar_px:.3f} px"
+        sentence(
+            "  {views} pairs held back: corners within {rms_mm:.3f} mm RMS (at most "
+            "{max_mm:.3f} mm) of the true board, lengths x {scale:.5f} ± {scale_sd:.5f}, "
+            "epipolar {epipolar_px:.3f} px",
+            views=value.views,
+            rms_mm=value.rms_mm,
+            max_mm=value.max_mm,
+            scale=value.scale,
+            scale_sd=value.scale_sd,
+            epipolar_px=value.epipolar_px,
+        )
     ]
 
 
 def _camera_line(camera: "CameraCalibration") -> str:
     width, height = camera.image_size
-    return (
-        f"{camera.name:<8} {camera.rms_px:.4f} px RMS over {camera.views} views of {width}x{height}"
+    return sentence(
+        "{name:<8} {rms_px:.4f} px RMS over {views} views of {width}x{height}",
+        name=camera.name,
+        rms_px=camera.rms_px,
+        views=camera.views,
+        width=width,
+        height=height,
     )
 
 
@@ -287,20 +333,27 @@ def _parameter_lines(camera: "CameraCalibration") -> list[str]:
     return [
         f"  {name}  {value:>12.6g} ± {document['sd'][name]:.2g}"
         if name in camera.estimated
-        else f"  {name}  {0:>12} (not supported by the views)"
+        else sentence("  {name}  {zero:>12} (not supported by the views)", name=name, zero=0)
         for name, value in document["parameters"].items()
     ]
 
 
 def _residual_lines(residuals: "Sequence[ViewResidual]") -> list[str]:
     words = {"used": "", "outlier": sentence("left out"), "held_back": sentence("held back")}
-    return [f"  {r.name:<32} {r.rms_px:7.3f} px  {words[r.role]}".rstrip() for r in residuals]
+    return [
+        joined("  ", (f"  {r.name:<32} {r.rms_px:7.3f} px", *filter(None, (words[r.role],))))
+        for r in residuals
+    ]
 
 
 def _refused(looked: "Sequence[Seen]") -> list[str]:
     from app.tracking.calibration.views import Rejection
 
-    return [f"  {v.name:<32} not used: {v.text}" for v in looked if isinstance(v, Rejection)]
+    return [
+        sentence("  {name:<32} not used: {text}", name=v.name, text=v.text)
+        for v in looked
+        if isinstance(v, Rejection)
+    ]
 
 
 def _residuals(residuals: "Sequence[ViewResidual]") -> list[dict[str, Any]]:

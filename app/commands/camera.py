@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.reader_language import template
+from app.commands.reader_language import tell, template
 from app.commands.shown import Each
-from app.core.messages import listed, sentence
+from app.core.messages import joined, listed, sentence
 
 if TYPE_CHECKING:
     from app.tracking.cameras.settings import CameraSettings
@@ -116,8 +116,10 @@ def use(
     file, warnings = save_settings(settings), []
     for side in given:
         if lack := missing(getattr(settings, side).source, camera_ports()):
-            warnings.append(f"{side}: {lack}; saved all the same, for when it is")
-            typer.echo(f"warning: {warnings[-1]}", err=True)
+            warnings.append(
+                sentence("{side}: {lack}; saved all the same, for when it is", side=side, lack=lack)
+            )
+            tell(sentence("warning: {text}", text=warnings[-1]), err=True)
     return Answer(
         {"chosen": settings.model_dump(mode="json"), "file": file, "warnings": warnings},
         shown=(
@@ -143,7 +145,7 @@ def examine(
         found.write_pictures(out)
     lines = [line for report in found.reports for line in report_lines(report)]
     if found.skew_ms is not None:
-        lines.append(f"skew (right after left): {found.skew_ms:.1f} ms")
+        lines.append(sentence("skew (right after left): {skew:.1f} ms", skew=found.skew_ms))
     if found.order:
         lines.append(found.order)
     facts = {
@@ -291,18 +293,35 @@ def report_lines(report: CameraReport) -> list[str]:
     """Return what a camera delivered, a line each, for people."""
     figures = report.figures
     times = {True: sentence("the driver's"), False: sentence("of the delivery, less the latency")}
-    lines = [
-        f"{report.name}: {report.size[0]}x{report.size[1]}, {figures.rate:.1f} pictures/s, "
-        f"jitter {1e3 * figures.jitter:.1f} ms, {100.0 * figures.repeated_share:.1f} % repeated",
-        f"  brightness {report.brightness:.0f} of 255, "
-        f"{100.0 * report.saturated:.1f} % overexposed, noise {report.noise:.1f} grey values",
+    lines: list[str] = [
+        sentence(
+            "{name}: {width}x{height}, {rate:.1f} pictures/s, jitter {jitter_ms:.1f} ms, "
+            "{repeated:.1f} % repeated",
+            name=report.name,
+            width=report.size[0],
+            height=report.size[1],
+            rate=figures.rate,
+            jitter_ms=1e3 * figures.jitter,
+            repeated=100.0 * figures.repeated_share,
+        ),
+        sentence(
+            "  brightness {brightness:.0f} of 255, {saturated:.1f} % overexposed, "
+            "noise {noise:.1f} grey values",
+            brightness=report.brightness,
+            saturated=100.0 * report.saturated,
+            noise=report.noise,
+        ),
     ]
     if report.driver_time is not None:
         lines.append(
-            f"  capture times: {times[report.driver_time]}; {1e3 * report.age:.0f} ms to delivery"
+            sentence(
+                "  capture times: {times}; {age_ms:.0f} ms to delivery",
+                times=times[report.driver_time],
+                age_ms=1e3 * report.age,
+            )
         )
-    lines += [f"  {text}" for text in report.settings]
-    return lines + [f"  ! {text}" for text in report.advice()]
+    lines += [joined("", ("  ", text)) for text in report.settings]
+    return lines + [joined("", ("  ! ", text)) for text in report.advice()]
 
 
 def colour_line(settings: CameraSettings) -> str:
@@ -311,9 +330,13 @@ def colour_line(settings: CameraSettings) -> str:
     if colour is None:
         return sentence("marker's colour: the usual red (the tracker panel's Learn takes another)")
     blue, green, red = colour.bgr
-    return (
-        f"marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within "
-        f"{colour.angle_deg:.0f}° (`acus camera use --forget-colour` goes back to the usual red)"
+    return sentence(
+        "marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within "
+        "{angle:.0f}° (`acus camera use --forget-colour` goes back to the usual red)",
+        red=red,
+        green=green,
+        blue=blue,
+        angle=colour.angle_deg,
     )
 
 

@@ -11,7 +11,7 @@ from app.commands.answer import Answer, Commands
 from app.commands.reader_language import template
 from app.commands.shown import Each
 from app.core.errors import ConfigurationError
-from app.core.messages import sentence
+from app.core.messages import counted, joined, sentence
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -146,7 +146,10 @@ def digest(
     ]
     size = "×".join(map(str, found.size))
     lines = [f"{name} [mm]  {row}" for name, row in zip("xyz", rows, strict=True)]
-    return Answer(asdict(found), [f"values  sha256 {found.values} of {size} {found.kind}", *lines])
+    values = sentence(
+        "values  sha256 {values} of {size} {kind}", values=found.values, size=size, kind=found.kind
+    )
+    return Answer(asdict(found), [values, *lines])
 
 
 @app.command()
@@ -267,8 +270,14 @@ def list_entries() -> Answer:
     entries = CtLibrary().entries()
     lines = []
     for entry in entries:
-        opens = "" if entry.remedy == "none" else f"  opens with --remedy {entry.remedy}"
-        lines.append(f"{entry.name}  {entry.label}  {entry.files} files{opens}  {entry.folder}")
+        remedy = entry.remedy
+        parts = [
+            f"{entry.name}  {entry.label}",
+            counted("{n} file", "{n} files", entry.files),
+            "" if remedy == "none" else sentence("opens with --remedy {remedy}", remedy=remedy),
+            str(entry.folder),
+        ]
+        lines.append(joined("  ", filter(None, parts)))
     empty = sentence("the library is empty; `acus ct import DIR` takes a CT in")
     return Answer({"entries": [_entry(entry) for entry in entries]}, lines or [empty])
 
@@ -299,10 +308,17 @@ def _imported(imported: "Imported") -> dict[str, Any]:
 
 def _imported_lines(imported: "Imported") -> list[str]:
     entry = imported.entry
-    head = f"{entry.name}: {entry.label}, {entry.files} files: {imported.words}"
+    head: str = sentence(
+        "{name}: {label}, {files}: {words}",
+        name=entry.name,
+        label=entry.label,
+        files=counted("{n} file", "{n} files", entry.files),
+        words=imported.words,
+    )
     if entry.remedy != "none":
-        head += f"; it opens with --remedy {entry.remedy}"
-    return [head, *(f"  {line}" for line in imported.report.lines()), f"  {entry.folder}"]
+        head += sentence("; it opens with --remedy {remedy}", remedy=entry.remedy)
+    report = [joined("", ("  ", line)) for line in imported.report.lines()]
+    return [head, *report, f"  {entry.folder}"]
 
 
 def _entry(entry: "LibraryEntry") -> dict[str, Any]:
@@ -484,15 +500,16 @@ def _line(series: "Series") -> str:
     spacing = "" if series.spacing_mm is None else " ".join(f"{s:.4g}" for s in series.spacing_mm)
     origin = "" if series.origin_mm is None else " ".join(f"{v:.2f}" for v in series.origin_mm)
     direction = "" if series.direction is None else " ".join(f"{v:.4g}" for v in series.direction)
+    remedies = ", ".join(series.remedies)
     parts = [
-        "usable " if series.usable else "refused",
+        sentence("usable ") if series.usable else sentence("refused"),
         f"{series.modality} {size}",
-        f"spacing {spacing} mm" if spacing else "",
-        f"origin {origin} mm" if origin else "",
-        f"direction {direction}" if direction else "",
+        sentence("spacing {spacing} mm", spacing=spacing) if spacing else "",
+        sentence("origin {origin} mm", origin=origin) if origin else "",
+        sentence("direction {direction}", direction=direction) if direction else "",
         f"{series.label}, {series.pseudonym}, {series.key}",
         series.reason,
         *series.notes,
-        f"on request: {', '.join(series.remedies)}" if series.remedies else "",
+        sentence("on request: {remedies}", remedies=remedies) if remedies else "",
     ]
-    return "  ".join(part for part in parts if part)
+    return joined("  ", (part for part in parts if part))

@@ -61,7 +61,9 @@ def _demonstrations() -> Iterator[tuple[str, dict[str, str]]]:
         try:
             said = plugin_folders.declared(ast.parse(read_at_most(path).decode()).body)
         except (OSError, SyntaxError, ValueError) as error:
-            plugin_folders.refused[path] = f"{path} cannot be read: {error}"
+            plugin_folders.refused[path] = sentence(
+                "{path} cannot be read: {error}", path=path, error=error
+            )
         else:
             yield path.stem, {key: str(value) for key, value in said.items()}
 

@@ -15,8 +15,9 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands, wants_json
+from app.commands.reader_language import local
 from app.commands.shown import Each
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 
 if TYPE_CHECKING:
     from app.commands.answers import Answers
@@ -95,7 +96,9 @@ def show(port: Port, profile: Profile = "icube") -> Answer:
     finally:
         link.close()
     lines = [
-        f"{name:<10} {value if value != '' else '(the board does not say)'}"
+        f"{name:<10} {value}"
+        if value != ""
+        else joined("", (f"{name:<10} ", sentence("(the board does not say)")))
         for name, value in found.items()
     ]
     return Answer({"port": port} | found, lines)
@@ -267,9 +270,10 @@ def _answer(bench: Bench, results: list[AnyResult]) -> Answer:
         "results": [result.model_dump(mode="json") for result in results],
         "clearance": asdict(clearance),
     }
-    text = clearance.reason or f"cleared for {clearance.force_cap:g} N"
-    lines = [f"{result.step.value:<10} {result.summary()}" for result in results]
-    return Answer(facts, [*lines, f"{'device':<10} {bench.record.device}: {text}"])
+    text = clearance.reason or sentence("cleared for {force:g} N", force=clearance.force_cap)
+    lines = [joined(" ", (f"{one.step.value:<10}", one.summary())) for one in results]
+    last = sentence("device     {device}: {text}", device=bench.record.device, text=text)
+    return Answer(facts, [*lines, last])
 
 
 def emulate(
@@ -323,7 +327,7 @@ def _serve(emulator: Emulator) -> None:
                     emulator.switch(order)
                     typer.echo(f"ok {order}")
                 except AcusError as error:
-                    typer.echo(f"not understood: {error}")
+                    typer.echo(local(sentence("not understood: {error}", error=error)))
             emulator.work()
             time.sleep(0.01)
     finally:

@@ -127,4 +127,4 @@ def calibrate(
         "axis_by": found.axis.source,
         "file": str(path),
     }
-    return Answer(facts, [found.words, f"kept in {path}"])
+    return Answer(facts, [found.words, sentence("kept in {path}", path=path)])

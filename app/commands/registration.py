@@ -94,7 +94,8 @@ def list_checks() -> Answer:
     row = template(
         "{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}"
     )
-    none = [] if rows else [f"no registration checks in {Registrations.own().folder}"]
+    empty = sentence("no registration checks in {folder}", folder=Registrations.own().folder)
+    none = [] if rows else [empty]
     return Answer({"checks": rows}, none, shown=Each("checks", row))
 
 

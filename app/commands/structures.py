@@ -7,7 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 
 if TYPE_CHECKING:
     from app.imaging.structures.structure import StructureSet
@@ -37,9 +37,19 @@ def list_structures(files: Files, ct: Folder, series: Uid = None) -> Answer:
     lines = []
     for one in structures:
         x, y, z = one.centre_mm
-        warn = f"warns within {one.warn_mm:g} mm" if one.warn_mm else sentence("never warns")
-        place = f"centre LPS {x:.1f} {y:.1f} {z:.1f} mm"
-        lines.append(f"{one.name}  {one.kind}  {one.millilitres:.2f} ml  {place}  {warn}")
+        warn = sentence("never warns")
+        if one.warn_mm:
+            warn = sentence("warns within {warn_mm:g} mm", warn_mm=one.warn_mm)
+        lines.append(
+            sentence(
+                "{name}  {kind}  {millilitres:.2f} ml  centre LPS {place} mm  {warn}",
+                name=one.name,
+                kind=one.kind,
+                millilitres=one.millilitres,
+                place=f"{x:.1f} {y:.1f} {z:.1f}",
+                warn=warn,
+            )
+        )
     return Answer(_document(structures), lines + _notes(structures))
 
 
@@ -94,14 +104,15 @@ def distance(
     lines = []
     for one in found:
         far = f"{one.distance_mm:+.1f} ± {one.accuracy_mm:.1f} mm"
-        through = f", {one.through_mm:.1f} mm inside" if one.through_mm else ""
-        where = f"at depth {one.depth_mm:.1f} mm{through}"
-        lines.append(f"{one.structure.name}  {far}  {where}  {one.nearness}")
+        where: str = sentence("at depth {depth_mm:.1f} mm", depth_mm=one.depth_mm)
+        if one.through_mm:
+            where += sentence(", {inside_mm:.1f} mm inside", inside_mm=one.through_mm)
+        lines.append(joined("  ", (one.structure.name, far, where, one.nearness)))
     return Answer({"structures": rows}, lines)
 
 
 def _notes(structures: "StructureSet") -> list[str]:
-    return [f"note  {note}" for note in structures.notes]
+    return [sentence("note  {note}", note=note) for note in structures.notes]
 
 
 def _read(files: list[Path], ct: Path, series: str | None) -> "tuple[StructureSet, Volume]":

@@ -8,7 +8,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer
 from app.commands.reader_language import tell
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -194,7 +194,7 @@ def _list() -> Answer:
         try:
             title, question = (found := declaration(name)).title, found.question
         except StudyError as error:
-            title, question = name, f"cannot be used: {error}"
+            title, question = name, sentence("cannot be used: {error}", error=error)
         rows.append({"name": name, "title": title, "question": question})
-    lines = [f"{row['name']:24} {row['question']}" for row in rows]
+    lines = [joined(" ", (f"{row['name']:24}", row["question"])) for row in rows]
     return Answer({"studies": rows}, lines)

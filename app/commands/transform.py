@@ -76,5 +76,8 @@ def show(
     rows = ["  ".join(f"{value:12.6f}" for value in row + 0.0) for row in matrix]
     return Answer(
         {"to_parent_mm": matrix.tolist(), "angle_deg": angle},
-        [*rows, f"turns by {angle:.3f}°, millimetres, LPS as in the file"],
+        [
+            *rows,
+            sentence("turns by {angle:.3f}°, millimetres, LPS as in the file", angle=angle),
+        ],
     )

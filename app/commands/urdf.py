@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.reader_language import local
 from app.core.messages import sentence
 
 app = Commands(help="Device profiles to and from URDF, and to MJCF.")
@@ -54,7 +55,14 @@ def export(
         ) from None
     write_text(out, write_urdf(as_pantograph(device), where))
     place = where.value.replace("-", " ")
-    return Answer({"files": [out]}, [f"{out}: {profile}, world at the {place}"])
+    return Answer(
+        {"files": [out]},
+        [
+            sentence(
+                "{file}: {profile}, world at the {place}", file=out, profile=profile, place=place
+            )
+        ],
+    )
 
 
 @app.command("mjcf")
@@ -95,8 +103,14 @@ def import_profile(
     if out.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(sentence("--out {out}: a device profile is a .yaml file", out=out))
     document = profile_like(load_pantograph(like), read_geometry(file), out.stem)
-    head = f"# Lengths from {file.name}, all else from the profile {like}. SI units.\n"
-    write_text(out, head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True))
+    head = sentence(
+        "# Lengths from {file}, all else from the profile {like}. SI units.",
+        file=file.name,
+        like=like,
+    )
+    write_text(
+        out, local(head) + "\n" + yaml.safe_dump(document, sort_keys=False, allow_unicode=True)
+    )
     lengths = document["geometry"]
     shown = ", ".join(f"{name} {lengths[name]}" for name in lengths if name != "provenance")
     return Answer({"files": [out], "geometry": lengths}, [f"{out}: {shown} m"])

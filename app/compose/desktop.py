@@ -270,9 +270,9 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
     clock = SystemClock()  # another's time may stand until the loop ticks
     begin = clock.now()
     while (waited := clock.now() - begin) < _PATIENCE:
-        said = sentence("starting robot and cameras")
+        said = sentence("waiting for the first picture")
         if waited >= _LONG:
-            said = sentence("starting robot and cameras: {waited:.0f} s", waited=waited)
+            said = sentence("waiting for the first picture: {waited:.0f} s", waited=waited)
         progress.report(0.8 + 0.2 * elapsed_share(waited), said)
         rig.trainer.heartbeat()
         if rig.loop.latest().tick > 0 and rig.tracker.latest.read() is not None:

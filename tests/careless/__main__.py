@@ -53,6 +53,10 @@ def main() -> int:
             go_on=options.go_on,
             busy=options.busy,
         )
+        if not (run / "actions.jsonl").exists():
+            print(f"seed {options.seed}, part {part}: the window did not open (exit code {code})")
+            print((run / "stderr.txt").read_text()[-4000:])
+            return NOT_POSSIBLE
         actions = read_actions(run / "actions.jsonl")
         count += len(actions)
         if code != 0:

@@ -21,6 +21,8 @@ KEYS = (
     "ctrl+1", "ctrl+2", "ctrl+3", "ctrl+4",
 )  # fmt: skip
 SIZES = ((1366, 768), (1280, 720), (1920, 1080), (1600, 900), (1440, 1000))
+ROLES = ("student", "instructor", "technician")
+LANGUAGES = ("en", "de", "fr")
 TEXTS = ("../../etc", "P-001", "", "ää", "0", "-1", "1e9", "nonsense", "12,5", "a" * 80)
 
 
@@ -30,13 +32,13 @@ class Action:
 
     Attributes:
         kind: `click`, `double`, `right`, `middle`, `drag`, `wheel`, `key`, `type`, `menu`,
-            `exercise`, `ct`, `page`, `size`, `start`, `wait`.
+            `exercise`, `ct`, `page`, `size`, `role`, `language`, `start`, `wait`.
         path: of the widget, see `targets.path_of`; empty where it is not about one.
         at: place in it, shares of width and height.
         to: of a drag, its end [px from its start]; of a size, width and height [px].
         number: notches of a wheel (negative: towards oneself), steps of a drag, entry of a menu.
         seconds: how long it takes, or what is waited; of a start, for the button to be there.
-        words: a key, a text, an exercise, a CT; else what the widget said.
+        words: a key, a text, an exercise, a CT, a role, a language; else what the widget said.
     """
 
     kind: str
@@ -112,6 +114,7 @@ def draw(rng: random.Random, screen: Screen) -> Action:
     kinds = {"control": 20, "drag": 16, "wheel": 12, "key": 16, "poke": 8, "wait": 8, "text": 2}
     if screen.is_main:
         kinds |= {"menus": 5, "exercise": 1, "ct": 1, "page": 2, "size": 2}
+        kinds |= {"role": 2, "language": 1}
         kinds |= {"end": 3, "scan": 6, "drag": 30, "wheel": 24} if screen.runs else {"start": 9}
     kind = rng.choices(list(kinds), list(kinds.values()))[0]
     return _DRAWN[kind](rng, screen) or Action("wait", seconds=0.2)
@@ -195,6 +198,14 @@ def _size(rng: random.Random, screen: Screen) -> Action | None:
     return Action("size", to=rng.choice(SIZES))
 
 
+def _role(rng: random.Random, screen: Screen) -> Action | None:
+    return Action("role", words=rng.choice(ROLES))
+
+
+def _language(rng: random.Random, screen: Screen) -> Action | None:
+    return Action("language", words=rng.choice(LANGUAGES))
+
+
 def _start(rng: random.Random, screen: Screen) -> Action | None:
     if not screen.exercises:
         return None
@@ -219,6 +230,6 @@ def _scan(rng: random.Random, screen: Screen) -> Action | None:
 _DRAWN = {
     "control": _control, "drag": _drag, "wheel": _wheel, "key": _key, "poke": _poke,
     "wait": _wait, "text": _text, "menus": _menus, "exercise": _exercise, "ct": _ct,
-    "page": _page, "size": _size, "start": _start, "end": _end,
-    "scan": _scan,
+    "page": _page, "size": _size, "role": _role, "language": _language, "start": _start,
+    "end": _end, "scan": _scan,
 }  # fmt: skip

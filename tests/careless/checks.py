@@ -19,10 +19,13 @@ from PySide6.QtCore import QObject, QTimer, QtMsgType, qInstallMessageHandler
 from PySide6.QtWidgets import QLabel
 
 from app.core import state_vector as sv
+from app.core.language import ENGLISH
 from app.session.header import TRASH
 from app.session.machine import RUNNING
 from app.session.recording import read_recording
 from app.session.result import AttemptResult
+from app.views.kit.language import chosen, code_for
+from app.views.shell.language import Rebuilding
 from app.views.shell.window import MainWindow
 from tests.careless.texts import all_windows, cut_texts
 
@@ -54,12 +57,12 @@ class Failure:
 
 
 class Checks(QObject):
-    """Watches one window; lives on the window's thread."""
+    """Watches the window that stands, which another language replaces; lives on its thread."""
 
-    def __init__(self, window: MainWindow, stacks: Path, answer_s: float = ANSWER_S) -> None:
-        super().__init__(window)
+    def __init__(self, holder: Rebuilding, stacks: Path, answer_s: float = ANSWER_S) -> None:
+        super().__init__(holder)
         self._answer_s = answer_s
-        self._window = window
+        self._holder, self._heard = holder, holder.window
         self._found: list[Failure] = []
         self._labels: set[str] = set()
         self._beat = time.monotonic()
@@ -70,8 +73,16 @@ class Checks(QObject):
         self._timer = QTimer(self, interval=BEAT_MS)
         self._timer.timeout.connect(self._look)
         self._timer.start()
-        window.conductor.controller.finished.connect(self._finished)
+        self._hear_of_attempts()
         threading.Thread(target=self._watch, name="careless-stacks", daemon=True).start()
+
+    @property
+    def _window(self) -> MainWindow:
+        return self._holder.window
+
+    def _hear_of_attempts(self) -> None:
+        self._heard = self._window
+        self._heard.conductor.controller.finished.connect(self._finished)
 
     def after(self) -> list[Failure]:
         """Return what failed since the last call, and what does not hold now."""
@@ -123,6 +134,8 @@ class Checks(QObject):
 
     # --- the heartbeat and the force ----------------------------------------------------------
     def _look(self) -> None:
+        if self._heard is not self._window:
+            self._hear_of_attempts()
         now = time.monotonic()
         self._slowest, self._beat = max(self._slowest, now - self._beat), now
         run = self._window.conductor.controller.run
@@ -188,13 +201,15 @@ class Checks(QObject):
             return []
         controller._display._figures_time = -1.0  # the panel's figures are due
         controller.poll()
-        said = []
+        said, is_english = [], code_for(chosen(self._window.settings)) == ENGLISH
         panel, pad = workspace.exercise_panel.readouts, workspace.bullseye
         other_words = {"lateral": pad._lateral.text(), "to_target": pad._remaining.text()}
         for name, text in other_words.items():
             mine, other = _number(panel.text(name)), _number(text)
             if "too deep" in text or "at target" in text:  # told with the sign of too deep
                 other = None if other is None else -other
+            if mine is not None and other is not None and not is_english:
+                mine, other = abs(mine), abs(other)  # which side is in words
             if mine is not None and other is not None and abs(mine - other) > 0.051:
                 said.append(f"{name}: the panel says {mine}, the bull's-eye {other}")
         return said
@@ -253,5 +268,5 @@ def _plan_of(window: MainWindow) -> object:
 
 
 def _number(text: str) -> float | None:
-    found = re.search(r"[-+]?\d+(?:\.\d+)?", text.replace("−", "-"))
+    found = re.search(r"[-+]?\d+(?:\.\d+)?", text.replace("−", "-").replace(",", "."))
     return float(found.group()) if found else None

@@ -26,8 +26,9 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QMenu
 from app.compose.desktop import Desktop
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
+from app.views.kit.roles import Role
 from app.views.shell.application import start
-from app.views.shell.collector import collect_for
+from app.views.shell.language import Rebuilding
 from app.views.shell.window import MainWindow
 from tests.careless import hands
 from tests.careless.actions import Action, Screen, draw, read_actions
@@ -110,14 +111,19 @@ class CarelessUser(threading.Thread):
     """Does one action after the other until the time is over, the list ends or something fails."""
 
     def __init__(
-        self, window: MainWindow, checks: Checks, asked: Asked, options: argparse.Namespace
+        self, holder: Rebuilding, checks: Checks, asked: Asked, options: argparse.Namespace
     ):
         super().__init__(name="careless-user", daemon=True)
-        self._window, self._checks, self._asked = window, checks, asked
+        self._holder, self._checks, self._asked = holder, checks, asked
         self._options = options
         self._rng = random.Random(options.seed)
         self._log = (options.folder / "actions.jsonl").open("w", buffering=1)
         self.failed: list[Failure] = []
+
+    @property
+    def _window(self) -> MainWindow:
+        """Return the window that stands: another language replaces it."""
+        return self._holder.window
 
     def run(self) -> None:
         """Use the window, then close it."""
@@ -272,6 +278,10 @@ class CarelessUser(threading.Thread):
             )[action.number]()
         elif action.kind == "size":
             window.resize(*action.to)
+        elif action.kind == "role":
+            window.roles.choose(Role(action.words))
+        elif action.kind == "language":
+            self._holder.change(action.words)
 
 
 def _target(widget) -> Target | None:
@@ -303,17 +313,18 @@ def main() -> None:
     options = parser.parse_args()
     application = start()
     ReadOnlyFiles(application)
-    window = MainWindow(Desktop())
-    collector = collect_for(window)
+    services = Desktop()
+    holder = Rebuilding(lambda: MainWindow(services))
+    window = holder.window
     window.resize(1366, 768)
     window.show()
-    checks = Checks(window, options.folder / "stacks.txt", options.answer)
+    checks = Checks(holder, options.folder / "stacks.txt", options.answer)
     if options.plant:
         DEFECTS[options.plant](window)
     asked = Asked()
-    CarelessUser(window, checks, asked, options).start()
+    CarelessUser(holder, checks, asked, options).start()
     application.exec()
-    collector.close()
+    holder.close()
     os._exit(0)  # the user closed the window
 
 

@@ -17,7 +17,7 @@ from app.core import state_vector as sv
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.session.machine import State
-from app.views.exercise.attempt_rail import AttemptRail
+from app.views.exercise.attempt_rail import AttemptRail, RailFigures
 from app.views.exercise.breath_strip import BreathStrip
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.scan_wall import ScanPicture, ScanWall
@@ -362,3 +362,27 @@ def test_the_rail_of_an_attempt_begins_at_its_top(window, settle):
     room.begin()
     assert settle(lambda: bar.maximum() > 0)
     assert bar.value() == 0
+
+
+def test_with_all_panels_no_figure_no_order_and_no_stage_stands_twice(window, patient, settle):
+    """Seen: time, depth, force, stages and the order, once in the rail and once beside it."""
+    window.resize(1366, 768)
+    begun(window, patient, start=False)
+    workspace, panel = window.workspace, window.workspace.exercise_panel
+    window.show()
+    workspace.room.begin()
+    workspace.room.toggle_panels()
+    settle(timeout=0.1)
+    shown = {key for key, label in panel.readouts._values.items() if label.isVisible()}
+    assert panel.isVisible()
+    assert workspace.rail.isVisible()
+    assert not shown & set(RailFigures.SHOWN)
+    assert {"angle", "lateral"} <= shown
+    assert not panel.readouts.force.isVisible()
+    assert not panel.steps.isVisible()
+    assert not workspace.next_step.isVisible()
+    assert not workspace.disclaimer.isVisible()
+    workspace.room.end()
+    settle(timeout=0.1)
+    back = [panel.readouts._values[key] for key in RailFigures.SHOWN]
+    assert all(part.isVisibleTo(panel) for part in (panel.steps, panel.readouts.force, *back))

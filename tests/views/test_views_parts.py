@@ -16,6 +16,7 @@ from app.imaging.errors import ImagingError
 from app.imaging.series import Ignored, Listing
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
+from app.views.kit.parts import BulletLabel
 from app.views.kit.progress_strip import ElidedLabel, ProgressStrip
 from app.views.kit.text import tr
 from app.views.reading.layouts import BULLSEYE, CORONAL, FIVE, FOUR, ViewGrid
@@ -288,3 +289,43 @@ def test_of_two_tasks_one_bar_is_seen_with_the_number_of_others_and_the_next_fol
         for gate in gates:
             gate.set()
     assert settle(lambda: strip.isHidden())
+
+
+def test_a_line_with_a_bullet_hangs_beside_it(application):
+    """Seen: its second line stood under the bullet, as if it were a point of its own."""
+    label, items = BulletLabel(), ["must be kept " * 12, "short"]
+    label.show_items(items)
+    (first, long), (second, short) = label._rows(300)
+    indent = label.fontMetrics().horizontalAdvance(BulletLabel.BULLET)
+    assert label.text().splitlines() == [first, second] == [f"•  {item}" for item in items]
+    assert long.left() == short.left() == indent
+    assert long.height() > 2 * short.height()
+    assert short.top() == long.top() + long.height()
+    assert label.heightForWidth(300) >= long.height() + short.height()
+    assert label.heightForWidth(1500) < label.heightForWidth(300)
+    label.show_items(["alone"])
+    assert label._rows(300)[0][1].left() == 0
+    label.deleteLater()
+
+
+def test_a_hanging_line_is_drawn_right_of_its_bullet_alone(application):
+    label = BulletLabel()
+    label.setStyleSheet("background: #000000; color: #ffffff;")
+    label.show_items(["must be kept " * 12, "short"])
+    label.resize(300, label.heightForWidth(300))
+    picture = label.grab().toImage()
+    indent = label.fontMetrics().horizontalAdvance(BulletLabel.BULLET)
+    (_, long), (_, short) = label._rows(300)
+
+    def drawn(top, bottom):
+        return any(
+            picture.pixelColor(x, y).lightness() > 100
+            for y in range(top, bottom)
+            for x in range(indent - 1)
+        )
+
+    line = label.fontMetrics().lineSpacing()
+    assert drawn(long.top(), line)
+    assert not drawn(line + 2, long.bottom() - 1)
+    assert drawn(short.top(), short.bottom())
+    label.deleteLater()

@@ -71,6 +71,17 @@ def test_research_machines_stand_on_a_shelf_of_their_own_at_the_end(page):
     assert all(place.x() > end for place in shelf)
 
 
+def test_no_name_of_a_skill_is_cut_on_a_laptop(page):
+    """Seen: "Research m…" over the shelf."""
+    headings = {group.skill: group.heading for group in page[0].map._groups if group.places}
+    assert PractisedSkill.MACHINE in headings
+    for heading in headings.values():
+        assert "…" not in heading.text()
+    shelf = headings[PractisedSkill.MACHINE]
+    assert shelf.text() == "Research"
+    assert shelf.toolTip() == "Research machines"
+
+
 def test_all_of_it_is_seen_at_once_and_no_place_lies_on_another(page):
     start, _ = page
     boxes = [place.geometry() for place in start.map.places.values()]
@@ -188,10 +199,10 @@ def test_a_screen_reader_hears_title_level_and_how_far_one_has_come(page):
     places = start.map.places
     start.set_standings({"kidney": Standing(3, 81.6, True, 1, 0)}, "thick-tissue", "Whose")
     assert heard(places["kidney"]) == (
-        "Kidney from behind, difficulty 3 of 9, done 3, best 82 of 100, passed once: one more "
+        "Kidney from behind, level 3 of 9, done 3, best 82 of 100, passed once: one more "
         "pass in a row masters it"
     )
-    assert heard(places["thick-tissue"]) == "Thick tissue, next, difficulty 2 of 9, not begun"
+    assert heard(places["thick-tissue"]) == "Thick tissue, next, level 2 of 9, not begun"
     assert heard(start.begin) == "Continue: Thick tissue"
     assert "passed once" in places["kidney"].toolTip()
     assert start.whose.text() == "Whose"

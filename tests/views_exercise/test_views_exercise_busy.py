@@ -16,6 +16,7 @@ from app.views.exercise.controller import LIGHT_MS, PERIOD_MS, SHOWN_S
 from app.views.exercise.readings import problem
 from app.views.exercise.status_items import tracker_item
 from app.views.exercise.steps import step_words
+from app.views.kit.verdict import StatusItem, Verdict
 
 PERIOD = 0.016
 
@@ -254,3 +255,36 @@ def test_the_light_and_the_rail_say_what_to_do_about_a_busy_computer(qt):
         rail.set_busy(True, has_scene)
         assert "Close other programs" in rail._busy.text()
     rail.deleteLater()
+
+
+def test_a_slowed_world_is_told_once_and_not_as_a_fault_of_cameras_besides(qt):
+    """Seen: two notes, one of them that simulated cameras' pictures come late."""
+    rail = AttemptRail()
+    late = StatusItem(
+        Verdict.WARNING, "Depth", "held, 149 ms old", "help", plain="measured a moment ago"
+    )
+    gone = StatusItem(Verdict.BAD, "Depth", "lost", "help", plain="not known")
+    rail.show_health([late], None)
+    assert "Depth" in rail._health.text()
+    rail.set_slowed(0.2)
+    rail.show_health([late], None)
+    assert rail._health.text() == ""
+    rail.show_health([late], late)  # the robot's own word stays
+    assert rail._health.text()
+    rail.show_health([gone], None)
+    assert "lost" in rail._health.text()
+    rail.deleteLater()
+
+
+def test_a_window_that_is_late_in_a_slowed_world_is_late_by_that_worlds_time(desk, monkeypatch):
+    """Seen: "Robot stopped: computer busy" beside a robot whose time had waited for the window."""
+    silent = []
+    show = lambda run, shown, now, late: silent.append(late)  # noqa: E731
+    monkeypatch.setattr(desk.controller._display, "show", show)
+    trainer = desk.trainer
+    trainer.now, trainer.paced = snapshot(trainer.placed, state=State.ALIGNING), 100.0
+    look(desk, 1, 1.6)
+    assert silent[-1] == pytest.approx(0.016)
+    trainer.paced = None  # a robot on the wall's time has missed it
+    look(desk, 1, 1.6)
+    assert silent[-1] == pytest.approx(1.6)

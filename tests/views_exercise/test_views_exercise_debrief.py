@@ -7,7 +7,7 @@ from types import MappingProxyType, SimpleNamespace
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from PySide6.QtCore import QPointF
+from PySide6.QtCore import QPointF, QRectF, QSizeF
 from PySide6.QtWidgets import QApplication, QPushButton
 from views_exercise_attempts import placed_plan, review, score
 
@@ -31,6 +31,7 @@ from app.session.samples import Samples
 from app.views.debrief.card import costs, drill_title
 from app.views.debrief.curves import CurvesView, PhaseLabel, curves_of, peaks, time_end, value_range
 from app.views.debrief.page import DebriefPage, date_text
+from app.views.debrief.path_view import force_place
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
 from app.views.debrief.score_words import (
     facts_of,
@@ -41,6 +42,7 @@ from app.views.debrief.score_words import (
     verdict,
 )
 from app.views.exercise.briefing import AttemptsLeft
+from app.views.exercise.pad_canvas import PadArea, is_inside
 from app.views.kit import theme
 from app.views.kit.language import use_language
 
@@ -794,3 +796,33 @@ def test_numbers_of_the_axes_have_the_decimal_sign_of_the_language(qt):
                 assert plot.getAxis(side).tickStrings([0.5, 1.0], 1.0, 0.5) == ["0,5", "1,0"]
     finally:
         use_language(qt, "en")
+
+
+def test_all_metrics_stand_in_the_page_without_scrolling_in_the_table_too(page):
+    """Seen: a scroll bar in the table, beside that of the page."""
+    page.resize(1366, 700)
+    page.fold.setChecked(True)
+    page.show_review(review())
+    page.table.set_detailed(True)
+    page.show()
+    QApplication.processEvents()
+    assert page.table.rowCount() > 5
+    assert page.table.verticalScrollBar().maximum() == 0
+    last = page.table.visualItemRect(page.table.item(page.table.rowCount() - 1, 0))
+    assert last.bottom() <= page.table.viewport().height()
+
+
+@pytest.mark.parametrize("angle_deg", range(0, 360, 15))
+@pytest.mark.parametrize("radius", [60.0, 95.0, 200.0])
+def test_the_size_of_a_force_covers_no_mark_and_no_other_words(angle_deg, radius):
+    """Seen: "0.4 N" over the needle's tip and a ring's size, in a small pane."""
+    area, turn = PadArea(QPointF(250.0, 250.0), radius), np.radians(angle_deg)
+    away = QPointF(float(np.cos(turn)), float(np.sin(turn)))
+    taken = [QRectF(240.0, 240.0, 18.0, 18.0), QRectF(262.0, 214.0, 44.0, 14.0)]
+    size = QSizeF(38.0, 14.0)
+    for reach in (0.0, 0.3, 0.9):
+        end = area.centre + reach * radius * away
+        box = force_place(area, end, size, taken)
+        assert (box.width(), box.height()) == (38.0, 14.0)
+        assert not any(box.intersects(other) for other in taken)
+        assert is_inside(box, area)

@@ -25,7 +25,7 @@ THEMES: Final = ("dark", "light")
 KEPT: Final = ("en", SIZES[0], THEMES[0])
 """Language, size and theme whose pictures are kept in the repository."""
 
-PASSES_S: Final = 20.0
+PASSES_S: Final = 300.0
 """Longest that a state is waited for once it was asked for [s]."""
 
 

@@ -25,7 +25,7 @@ from app.views.debrief.score_words import (
 )
 from app.views.kit import theme
 from app.views.kit.names import NAMES
-from app.views.kit.parts import FittingButton, PlainLabel
+from app.views.kit.parts import BulletLabel, FittingButton, PlainLabel
 from app.views.kit.text import literal, tr, translated
 
 STEERED: Final = frozenset({"lateral_error", "angle_error", "path_ratio", "tip_error"})
@@ -298,8 +298,7 @@ class DebriefCard(QFrame):
             self._add(words, style)
 
     def _add(self, text: str, style: str) -> None:
-        label = PlainLabel(text, self)
-        label.setWordWrap(True)
+        label = BulletLabel(text, self)
         label.setStyleSheet(style)
         self.costs.addWidget(label)
         self._labels.append(label)

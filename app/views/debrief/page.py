@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from PySide6.QtCore import Qt, Signal, SignalInstance
+from PySide6.QtCore import QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QColor, QHideEvent, QKeySequence, QResizeEvent, QShortcut
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -203,6 +203,18 @@ class ScoreTable(QTableWidget):
                     literal(f"{texts.label}\n{texts.help}" if column == 0 else texts.help)
                 )
                 self.setItem(index, column, item)
+        self.updateGeometry()
+
+    def sizeHint(self) -> QSize:
+        """Return room for all rows: the page scrolls, a table in it does not as well."""
+        frame = 2 * self.frameWidth()
+        head = self.horizontalHeader().sizeHint().height()
+        rows = self.rowCount() * self.verticalHeader().defaultSectionSize()
+        return QSize(super().sizeHint().width(), head + rows + frame)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the same height: nothing of it is put away."""
+        return QSize(super().minimumSizeHint().width(), self.sizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Leave the names of the metrics room."""

@@ -1,10 +1,11 @@
 """The tip's track in the bull's-eye plane, from the entry to where it ended."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import (
     QColor,
     QPainter,
@@ -21,7 +22,7 @@ from app.planning.off_path import offset
 from app.session.pad.hand import HandLimits
 from app.session.pad.view import PadScene
 from app.session.review import Review
-from app.views.exercise.pad_canvas import PadArea, paint_background
+from app.views.exercise.pad_canvas import PadArea, is_inside, paint_background
 from app.views.kit import theme
 from app.views.kit.text import tr
 
@@ -64,6 +65,7 @@ class PathView(QWidget):
         self._ghost: FloatArray = np.empty((0, 2))
         self._now: NeedleMoment | None = None
         self._ground: QPixmap | None = None
+        self._names: list[QRectF] = []
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(160, 160)
         self.setToolTip(
@@ -107,7 +109,10 @@ class PathView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if self._now is not None:
             _paint_needle(painter, area, self._now)
-            _paint_force(painter, area, pad_scene(review), self._now, review.force_limit)
+            arrow = _paint_force(painter, area, pad_scene(review), self._now, review.force_limit)
+            if arrow is not None:
+                taken = [*self._names, *_places(area, self._now)]
+                _write_force(painter, area, *arrow, taken)
 
     def _area(self) -> PadArea:
         return PadArea.inside(self.width(), self.height(), margin=28)
@@ -122,7 +127,8 @@ class PathView(QWidget):
         picture.fill(QColor(theme.IMAGE_GROUND))
         with QPainter(picture) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            paint_background(painter, area, pad_scene(review))
+            self._names = []
+            paint_background(painter, area, pad_scene(review), self._names)
             dots = Qt.PenStyle.DotLine
             paint_track(
                 painter, area, self._ghost, theme.GHOST.colour, 1.5, line=dots, filled=False
@@ -190,16 +196,31 @@ _LEAST_N: Final = 0.05
 """Below this force there is no arrow [N]."""
 
 
+def _places(area: PadArea, now: NeedleMoment) -> list[QRectF]:
+    """Return where the marks of hub, tip and aim stand, which no words may cover."""
+    side = 2.0 * _MARK_PX
+    points = (area.point(place) for place in (now.hub, now.tip, now.aim))
+    return [QRectF(at.x() - _MARK_PX, at.y() - _MARK_PX, side, side) for at in points]
+
+
+_MARK_PX: Final = 9.0
+"""Half the width of the largest of them [px]."""
+
+
 def _paint_force(
     painter: QPainter, area: PadArea, scene: PadScene, now: NeedleMoment, limit: float
-) -> None:
-    """Arrow of the force across the path from the hub, and how large it is."""
+) -> tuple[float, QPointF] | None:
+    """Draw the arrow of the force across the path from the hub.
+
+    Returns:
+        Size of the force [N] and end of the arrow [px]; None where there is none.
+    """
     if now.force is None:
-        return
+        return None
     across = np.array([now.force @ scene.frame.right, -(now.force @ scene.frame.up)])
     size = float(np.hypot(*across))
     if size < _LEAST_N:
-        return
+        return None
     start = area.point(now.hub)
     step = across / max(limit, size) * _ARROW * area.radius
     end = start + QPointF(float(step[0]), float(step[1]))
@@ -209,7 +230,45 @@ def _paint_force(
     painter.setBrush(QColor(FORCE_COLOUR))
     painter.drawLine(start, end)
     painter.drawPolygon(QPolygonF([end, end - back + side, end - back - side]))
-    painter.drawText(end + QPointF(6.0, -4.0), tr("{force:.1f} N", force=size))
+    return size, end
+
+
+def _write_force(
+    painter: QPainter, area: PadArea, size: float, end: QPointF, taken: Sequence[QRectF]
+) -> None:
+    """Write how large a force is near its arrow's end, where nothing else is marked or written."""
+    words = tr("{force:.1f} N", force=size)
+    painter.setFont(theme.font_of(theme.SMALL_PX))
+    metrics = painter.fontMetrics()
+    box = force_place(
+        area, end, QSizeF(metrics.horizontalAdvance(words) + 4.0, float(metrics.height())), taken
+    )
+    painter.fillRect(box, QColor(theme.IMAGE_GROUND))
+    painter.setPen(QColor(FORCE_COLOUR))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, words)
+
+
+def force_place(area: PadArea, end: QPointF, size: QSizeF, taken: Sequence[QRectF]) -> QRectF:
+    """Return the nearest free place for words about an arrow, outwards from its end.
+
+    Args:
+        area: of the pad.
+        end: of the arrow [px].
+        size: of the words [px].
+        taken: places of marks and other words [px].
+    """
+    away = end - area.centre
+    turn = float(np.arctan2(away.y(), away.x()))
+    reach = 6.0 + 0.5 * max(size.width(), size.height())
+    for far in np.arange(reach, 2.0 * area.radius, 6.0):
+        for angle in turn + np.radians((0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0)):
+            box = QRectF(QPointF(), size)
+            box.moveCenter(end + QPointF(float(far * np.cos(angle)), float(far * np.sin(angle))))
+            if is_inside(box, area) and not any(box.intersects(other) for other in taken):
+                return box
+    box = QRectF(QPointF(), size)
+    box.moveCenter(area.centre + QPointF(0.0, area.radius - size.height()))
+    return box
 
 
 FORCE_COLOUR: Final = "#f0e442"

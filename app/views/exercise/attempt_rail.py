@@ -268,7 +268,12 @@ class AttemptRail(QWidget):
             )
 
     def show_health(self, items: Sequence[StatusItem], robot: StatusItem | None) -> None:
-        """Say what is not well of the robot and the other parts; nothing while all is."""
+        """Say what is not well of the robot and the other parts; nothing while all is.
+
+        Where the simulated world is slowed that alone is said: it is why pictures come late.
+        """
+        if self._slow:
+            items = [item for item in items if item.verdict is Verdict.BAD]
         ill = [item for item in (robot, *items) if item is not None and not item.detail]
         ill = [item for item in ill if item.verdict in (Verdict.WARNING, Verdict.BAD)]
         worst = sorted(ill, key=lambda item: item.verdict is not Verdict.BAD)[:1]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
@@ -31,7 +30,7 @@ from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.page_keys import PageKeys
-from app.views.kit.parts import FittingButton, PlainLabel, button, label
+from app.views.kit.parts import BulletLabel, FittingButton, PlainLabel, button, label
 from app.views.kit.roles import Role
 from app.views.kit.text import declared, listing, literal, number, tr, tr_n, translated
 from app.views.reading.lock_words import view_title, views_for
@@ -43,7 +42,7 @@ HARDEST = 9
 # --- words ------------------------------------------------------------------------------------
 def level_words(level: int) -> str:
     """Say a level in words, for those who do not see the discs."""
-    return tr("difficulty {n} of {most}", n=level, most=HARDEST)
+    return tr("level {n} of {most}", n=level, most=HARDEST)
 
 
 def kind_words(exercise: Exercise) -> str:
@@ -309,7 +308,8 @@ class BriefingPage(QWidget):
         super().__init__(parent)
         self.title, self.kind = label("", "title"), label("", "dim")
         self.description = label()
-        self.scored, self.locked, self.aids, self.attempts = (label() for _ in range(4))
+        self.attempts = label()
+        self.scored, self.locked, self.aids = (BulletLabel() for _ in range(3))
         self.views = tuple(PortraitView(name, self) for name in ("axial", "coronal", "sagittal"))
         self.begin = _key_button(tr("Begin (Enter)"), "primary")
         self.show_me = _key_button(tr("Show me (D)"))
@@ -333,9 +333,9 @@ class BriefingPage(QWidget):
         self.description.setText(
             declared(exercise.description) or tr("Insert the needle to the target.")
         )
-        self.scored.setText(_lines(scored_words(exercise)))
-        self.locked.setText(_lines(locked_words(exercise)))
-        self.aids.setText(_lines(aid_words(exercise, ACCESS.role)))
+        self.scored.show_items(scored_words(exercise))
+        self.locked.show_items(locked_words(exercise))
+        self.aids.show_items(aid_words(exercise, ACCESS.role))
         self.show_portrait(portrait)
         self.set_allowance(AttemptsLeft())
         self.skip.setChecked(False)
@@ -480,7 +480,3 @@ def _key_button(text: str, role: str = "") -> QPushButton:
     made = button(text, role, FittingButton)
     made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     return made
-
-
-def _lines(message: Sequence[str]) -> str:
-    return "\n".join(f"•  {line}" for line in message) if len(message) > 1 else "".join(message)

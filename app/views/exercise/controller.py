@@ -416,14 +416,14 @@ class ExerciseController(QObject):
         if self.rester.rests(snapshot, now):
             return
         self._weigh(snapshot.state in RUNNING, now, late)
-        self._pace(run, snapshot, now)
+        silent = self._pace(run, snapshot, now)
         self._drain(run)
         self._display.take_hand(snapshot)
         # Nobody beyond this line knows more than may be told.
         absent = self._display.is_absent
         shown = without_needle(snapshot) if absent else run.shown.of(snapshot, run.placed)
         self.snapshot_taken.emit(shown)  # first: pictures are made while the rest is shown
-        self._display.show(run, shown, now, late)
+        self._display.show(run, shown, now, late if silent is None else min(late, silent))
         if shown.pose.valid:
             self.needle_moved.emit(shown.pose)
         self._take_result(run)
@@ -439,17 +439,26 @@ class ExerciseController(QObject):
             self._timer.setInterval(LIGHT_MS if light else PERIOD_MS)
             self.burdened.emit(light)
 
-    def _pace(self, run: ExerciseRun, snapshot: Snapshot, now: float) -> None:
-        """Let the simulated world of a person's attempt go no farther than he is shown it."""
+    def _pace(self, run: ExerciseRun, snapshot: Snapshot, now: float) -> float | None:
+        """Let the simulated world of a person's attempt go no farther than he is shown it.
+
+        Returns:
+            For how long the window was silent in that world's own time [s]: the loop, which waits
+            for it, has missed no more; None where time goes by the wall.
+        """
         by_hand = run.interactive and not (run.demonstrates or self._led_as)
         share = 1.0
-        if by_hand and snapshot.state in RUNNING and run.trainer.lead(SHOWN_S) is not None:
+        silent: float | None = None
+        if by_hand and snapshot.state in RUNNING:
+            silent = run.trainer.lead(SHOWN_S)
+        if silent is not None:
             share = self._world.note(now, run.trainer.time)
         else:
             self._world.begin()
         if share != self._share:
             self._share = share
             self.slowed.emit(share)
+        return silent
 
     def _take_rest(self, rests: bool) -> None:
         """Look seldom while robot and cameras rest: what is shown stays as it is."""

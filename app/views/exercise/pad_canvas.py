@@ -90,8 +90,16 @@ def paint_hidden(painter: QPainter, area: PadArea, words: str) -> None:
             return
 
 
-def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> list[str]:
+def paint_background(
+    painter: QPainter, area: PadArea, scene: PadScene, taken: list[QRectF] | None = None
+) -> list[str]:
     """Rim, rings with their sizes, cross, letters, target: always in the middle, as it is now.
+
+    Args:
+        painter: of the widget.
+        area: of the pad.
+        scene: what the pad shows.
+        taken: gets the places of the sizes, for whoever writes more upon it.
 
     Returns:
         Sizes of rings for which there is no room.
@@ -100,7 +108,7 @@ def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> list[
     painter.setBrush(QColor("#0e1114"))
     painter.drawEllipse(area.centre, area.radius, area.radius)
     _cross(painter, area)
-    taken: list[QRectF] = []
+    taken = [] if taken is None else taken
     unnamed: list[str] = []
     for i, ring in reversed(list(enumerate(scene.rings))):
         radius = scene.scale.radius(atan2(ring, scene.scale.length))

@@ -29,7 +29,7 @@ from app.session.pad.hand import Handle
 from app.session.snapshot import BreathHold, Snapshot
 from app.views.exercise.ablation_panel import AblationPanel
 from app.views.exercise.assistance_dial import AssistanceDial
-from app.views.exercise.attempt_rail import AttemptRail
+from app.views.exercise.attempt_rail import AttemptRail, RailFigures
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.entry_marking import EntryMarkPanel
@@ -581,8 +581,13 @@ class ExercisePanel(QWidget):
         self.rail.stage.set_brief(brief)
 
     def lend_tools(self, lent: bool) -> None:
-        """Let the rail have what is pressed in an attempt, or take it back to its place."""
+        """Let the rail have what is pressed in an attempt, or take it back to its place.
+
+        What the rail shows besides, stages, figures and force, is not shown here meanwhile.
+        """
         self.tools.set_narrow(lent)
+        self.steps.setVisible(not lent)
+        self.readouts.set_elsewhere(frozenset(RailFigures.SHOWN if lent else ()))
         if lent:
             self.rail.take(self.tools)
         else:

@@ -171,6 +171,7 @@ class AttemptReadouts(QWidget):
         self.force = ForceBar(self)
         self._telling: frozenset[str] | None = None
         self._offsets = self._forceful = self._detailed = True
+        self._elsewhere: frozenset[str] = frozenset()
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setVerticalSpacing(3)
@@ -206,6 +207,12 @@ class AttemptReadouts(QWidget):
         self._show_rows()
         self._show_force_bar()
 
+    def set_elsewhere(self, keys: frozenset[str]) -> None:
+        """Leave out these read-outs and the force, which stand beside this; empty: none do."""
+        self._elsewhere = keys
+        self._show_rows()
+        self._show_force_bar()
+
     def set_detailed(self, detailed: bool) -> None:
         """Show how well the tip is known, and what limits the guidance, or leave that out."""
         self._detailed = detailed
@@ -221,6 +228,7 @@ class AttemptReadouts(QWidget):
         for key, value in self._values.items():
             told = self._telling is None or key in self._telling
             told = told and (self._detailed or key not in DETAILS)
+            told = told and key not in self._elsewhere
             for label in (value, self._titles[key]):
                 label.setVisible(told and (self._offsets or key not in OFFSETS))
 
@@ -231,7 +239,8 @@ class AttemptReadouts(QWidget):
 
     def _show_force_bar(self) -> None:
         for widget in (self._force_title, self.force):
-            widget.setVisible(self._telling is None and self._forceful)
+            shown = self._telling is None and self._forceful
+            widget.setVisible(shown and not self._elsewhere)
 
     def text(self, key: str) -> str:
         """Text of one read-out: `elapsed`, `depth`, `angle`, `lateral`, `to_target`, `scans`."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QResizeEvent
+from collections.abc import Sequence
+from typing import Final
+
+from PySide6.QtCore import QRect, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFormLayout,
@@ -24,6 +27,8 @@ from PySide6.QtWidgets import (
 from app.views.kit import theme
 from app.views.kit.text import keys_text, literal, tr
 
+_WRAPPED: Final = int(Qt.TextFlag.TextWordWrap)
+
 
 class PlainLabel(QLabel):
     """A label that shows its text as it stands, whoever wrote it: names are no markup."""
@@ -32,6 +37,55 @@ class PlainLabel(QLabel):
         words, place = ("", text) if isinstance(text, QWidget) else (text or "", parent)
         super().__init__(words, place)
         self.setTextFormat(Qt.TextFormat.PlainText)
+
+
+class BulletLabel(PlainLabel):
+    """A label of plain text that wraps; a line that begins with a bullet hangs beside it.
+
+    The words stay `text()`, one item a line, for screen readers and whoever copies them.
+    """
+
+    BULLET: Final = "•  "
+
+    def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
+        super().__init__(text, parent)
+        self.setWordWrap(True)
+
+    def show_items(self, items: Sequence[str]) -> None:
+        """Show lines, with a bullet each where they are several."""
+        several = len(items) > 1
+        self.setText("\n".join(f"{self.BULLET if several else ''}{item}" for item in items))
+
+    def heightForWidth(self, width: int) -> int:
+        """Return the height of all lines [px] at a width [px]."""
+        rows = self._rows(width)
+        return rows[-1][1].bottom() + 1 if rows else 0
+
+    def minimumSizeHint(self) -> QSize:
+        """Return room for the longest word."""
+        metrics = self.fontMetrics()
+        longest = max(map(metrics.horizontalAdvance, self.text().split() or [""]))
+        return QSize(metrics.horizontalAdvance(self.BULLET) + longest, metrics.lineSpacing())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw each line, its bullet at the edge."""
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        for line, place in self._rows(self.width()):
+            if line.startswith(self.BULLET):
+                painter.drawText(0, place.top() + self.fontMetrics().ascent(), self.BULLET.strip())
+            painter.drawText(place, _WRAPPED, line.removeprefix(self.BULLET))
+        painter.end()
+
+    def _rows(self, width: int) -> list[tuple[str, QRect]]:
+        metrics, top, rows = self.fontMetrics(), 0, []
+        for line in self.text().split("\n") if self.text() else ():
+            left = metrics.horizontalAdvance(self.BULLET) if line.startswith(self.BULLET) else 0
+            room = QRect(left, top, max(1, width - left), 1 << 20)
+            place = metrics.boundingRect(room, _WRAPPED, line.removeprefix(self.BULLET))
+            rows.append((line, QRect(left, top, room.width(), place.height())))
+            top += place.height()
+        return rows
 
 
 def column(page: QWidget, title: str, spacing: int = theme.SPACING) -> QVBoxLayout:

@@ -217,8 +217,8 @@ class AttemptRoom(QObject):
         self.rail.setVisible(on)
         page.side.setVisible(not put_away)
         page.status.setVisible(not put_away)
-        page.disclaimer.setVisible(not put_away)
-        page.next_step.set_aside(put_away)
+        page.disclaimer.setVisible(not on)  # the rail has it, and the order
+        page.next_step.set_aside(on)
         self.rail.panel.setText(
             tr("Put panels away ({key})", key=keys_text(PANELS_KEY))
             if self.is_open

@@ -333,7 +333,11 @@ def _write(group: _SkillGroup, box: QRect) -> None:
     """Write a skill's name into a box; a tip has all of it where that is too narrow."""
     title, heading = skill_title(group.skill), group.heading
     side = Qt.TextElideMode.ElideRight
-    heading.setText(heading.fontMetrics().elidedText(title, side, box.width()))
+    metrics = heading.fontMetrics()
+    machines = group.skill is PractisedSkill.MACHINE
+    fits = metrics.horizontalAdvance(title) <= box.width()
+    words = tr("Research") if machines and not fits else title  # a shelf is one place wide
+    heading.setText(metrics.elidedText(words, side, box.width()))
     heading.setToolTip("" if heading.text() == title else literal(title))
     heading.setGeometry(box)
 
