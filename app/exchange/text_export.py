@@ -1,4 +1,4 @@
-"""Text files for other programs."""
+"""Files for other programs, whole or not at all."""
 
 from pathlib import Path
 
@@ -13,8 +13,21 @@ def write_text(path: Path, text: str) -> None:
     Raises:
         ExportError: if the file cannot be written.
     """
+    _write(path, text)
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file, whole or not at all.
+
+    Raises:
+        ExportError: if the file cannot be written.
+    """
+    _write(path, content)
+
+
+def _write(path: Path, content: str | bytes) -> None:
     try:
-        write_atomically(path, text)
+        write_atomically(path, content)
     except OSError as error:
         raise ExportError(
             sentence(
