@@ -1,4 +1,4 @@
-"""Skin and structures of a run as triangles, for programs that draw them: a few thousand of each."""
+"""Skin and structures of a run as a few thousand triangles, for programs that draw them."""
 
 from __future__ import annotations
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from math import pi
 from typing import Final
 
@@ -34,10 +35,10 @@ def meshes_of(profile: PantographProfile) -> dict[str, FloatArray]:
     """Return the triangles [m] of each part, shape (n, 3, 3), counter-clockwise from outside."""
     lengths = profile.geometry
     return {
-        "base": _plate(lengths.base, 2.0 * WIDTH, THICK) - [0.0, 0.0, 1.5 * THICK],
+        "base": _plate(lengths.base, 2.0 * WIDTH, THICK) - np.array([0.0, 0.0, 1.5 * THICK]),
         "motor": _turned(_MOTOR),
         "link1": _plate(lengths.proximal, WIDTH, THICK),
-        "link2": _plate(lengths.distal, WIDTH, THICK) + [0.0, 0.0, THICK],
+        "link2": _plate(lengths.distal, WIDTH, THICK) + np.array([0.0, 0.0, THICK]),
         "hub": _turned(_HUB),
     }
 
@@ -61,7 +62,7 @@ def _plate(length: float, width: float, thick: float) -> FloatArray:
     """Triangles of a plate from one axis to the next, round at both, its middle at z = 0."""
     half = np.linspace(-0.5 * pi, 0.5 * pi, _SIDES // 2 + 1)
     arc = 0.5 * width * np.column_stack([np.cos(half), np.sin(half)])
-    outline = np.concatenate([arc + [length, 0.0], -arc])
+    outline = np.concatenate([arc + np.array([length, 0.0]), -arc])
     ring = np.column_stack([outline, np.full(len(outline), -0.5 * thick)])
     middle = np.array([0.5 * length, 0.0, -0.5 * thick])
     up = np.array([0.0, 0.0, thick])
@@ -72,7 +73,7 @@ def _turned(outline: Sequence[tuple[float, float]]) -> FloatArray:
     """Triangles of a body turned about z; its outline begins and ends on the axis."""
     turn = np.linspace(0.0, 2.0 * pi, _SIDES, endpoint=False)
     circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(_SIDES)])
-    rings = [radius * circle + [0.0, 0.0, z] for z, radius in outline[1:-1]]
+    rings = [radius * circle + np.array([0.0, 0.0, z]) for z, radius in outline[1:-1]]
     ends = [np.array([0.0, 0.0, z]) for z, _ in (outline[0], outline[-1])]
     return _closed(ends, rings)
 
@@ -80,7 +81,7 @@ def _turned(outline: Sequence[tuple[float, float]]) -> FloatArray:
 def _closed(ends: Sequence[FloatArray], rings: Sequence[FloatArray]) -> FloatArray:
     """Join rings of as many points each, counter-clockwise seen from +z, and close both ends."""
     found = []
-    for low, high in zip(rings[:-1], rings[1:], strict=True):
+    for low, high in pairwise(rings):
         a, b, c, d = low, np.roll(low, -1, 0), np.roll(high, -1, 0), high
         found += [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]
     for end, ring, forward in ((ends[0], rings[0], False), (ends[1], rings[-1], True)):

@@ -182,7 +182,9 @@ def test_of_another_patient_nothing_of_the_one_before_is_left(stage, viewer):
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e308])
-def test_a_pose_that_no_number_can_hold_is_left_out_and_the_next_comes(stage, server, viewer, value):
+def test_a_pose_that_no_number_can_hold_is_left_out_and_the_next_comes(
+    stage, server, viewer, value
+):
     stage.change(needle=needle(p_tip=(value, 0.0, 0.0)))
     viewer.subscribe("/needle/tip")
     viewer.subscribe("/tf", 8)

@@ -256,7 +256,7 @@ def test_a_full_disk_takes_no_statement_and_loses_none(queue, monkeypatch):
         where = place(server)
         assert tell_attempts(results(*SOME[:2]), where, queue) == 2
         before, freed = ids(queue), full(monkeypatch, "waiting-")
-        with pytest.raises(SessionError, match="cannot write .*: No space left on device"):
+        with pytest.raises(SessionError, match=r"cannot write .*: No space left on device"):
             tell_attempts(results(*SOME), where, queue)
         assert ids(queue) == before
         freed()

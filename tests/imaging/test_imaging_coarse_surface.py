@@ -5,7 +5,8 @@ import pytest
 
 from app.imaging.coarse_surface import coarse_surface
 
-AFFINE = np.array([[0.0, 2.0, 0.0, -31.0], [1.5, 0.0, 0.0, 5.0], [0.0, 0.0, -2.5, 9.0], [0, 0, 0, 1]])  # fmt: skip
+AFFINE = np.eye(4)
+AFFINE[:3] = [[0.0, 2.0, 0.0, -31.0], [1.5, 0.0, 0.0, 5.0], [0.0, 0.0, -2.5, 9.0]]
 """Axes that change places, one of them against LPS: determinant above 0."""
 
 MIRRORED = AFFINE @ np.diag([1.0, 1.0, -1.0, 1.0])
