@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, sqrt
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, IntArray, read_only
 
-_AROUND: Final = ((1, 1), (0, 1), (0, 0), (1, 0))
+_AROUND = ((1, 1), (0, 1), (0, 0), (1, 0))
 """Cells round an edge, as steps back along the two other axes, counter-clockwise about it."""
 
 

@@ -16,7 +16,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.errors import AcusError
+from app.core.errors import AcusError, NumericalError
 from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.exchange.errors import LinkMessageError
@@ -312,7 +312,11 @@ class _FoxgloveTalk:
                 self._event = happened.number
                 await self._send(subscription, happened.wall, _log(happened))
             return
-        message = channel.of(moment)
+        try:
+            message = channel.of(moment)
+        except NumericalError:  # of a pose that is none; the peer stays
+            self._journal.say(f"{channel.topic} is not finite, and not sent", "not finite")
+            return
         if message is not None and message.key != self._keys.get(subscription):
             self._keys[subscription] = message.key
             await self._send(subscription, moment.wall, message.body)
