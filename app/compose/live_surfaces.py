@@ -34,15 +34,15 @@ def live_surfaces(volume: Volume | None, risks: Iterable[Risk]) -> tuple[LiveSur
         affine = np.array(volume.affine_mm, np.float64)
         affine[:3, :3] *= body.factors
         smooth = gaussian_filter(np.asarray(body.coarse, np.float32), 0.7, mode="nearest")
-        found.append(_told(SKIN, coarse_surface(smooth, affine, 0.5, SKIN_TRIANGLES), True))
+        found.append(_surface(SKIN, coarse_surface(smooth, affine, 0.5, SKIN_TRIANGLES), True))
     for risk in risks:
         field = risk.field
         affine = np.diag([field.step_mm, field.step_mm, field.step_mm, 1.0])
         affine[:3, 3] = field.start_mm
         surface = coarse_surface(-field.values, affine, 0.0, STRUCTURE_TRIANGLES)
-        found.append(_told(without_identifiers(risk.name), surface, False))
+        found.append(_surface(without_identifiers(risk.name), surface, False))
     return tuple(one for one in found if len(one.triangles))
 
 
-def _told(name: str, surface: CoarseSurface, skin: bool) -> LiveSurface:
+def _surface(name: str, surface: CoarseSurface, skin: bool) -> LiveSurface:
     return LiveSurface(name, surface.points_mm * MILLIMETRE, surface.triangles, skin)

@@ -303,9 +303,8 @@ def as_cbor(document: Mapping[str, Any]) -> bytes:
     import cbor2
 
     def typed(encoder: Any, array: Any) -> None:
-        if not np.isfinite(array).all():
-            raise ValueError("not finite")
-        encoder.encode(cbor2.CBORTag(_TYPED_FLOAT64, np.asarray(array, dtype="<f8").tobytes()))
+        finite = np.asarray_chkfinite(array, dtype="<f8")
+        encoder.encode(cbor2.CBORTag(_TYPED_FLOAT64, finite.tobytes()))
 
     return cbor2.dumps(document, default=typed)
 
