@@ -140,7 +140,7 @@ def test_skin_and_structures_are_told_where_the_exercise_shows_them(run, volume_
     board.open()
     try:
         board.attach(run, ct)
-        (skin,) = until(lambda: board.now().surfaces, 20.0)
+        (skin,) = until(lambda: board.now().surfaces, 90.0)
         assert (skin.name, skin.skin) == ("skin", True)
         assert 1000 < len(skin.triangles) <= 6000
         body = find_body(ct)
