@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak twin check bench trial fuzz kills accuracy firmware promises tests-page portraits docs docs-pictures looks spelling wheel wheels sbom deb kit clean
+.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak twin check bench trial fuzz kills accuracy firmware promises tests-page portraits docs docs-pictures looks spelling wheel wheels sbom deb wheelhouse kit clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -146,6 +146,9 @@ sbom: setup  ## what the trainer consists of as CycloneDX, with digests and lice
 
 deb: wheel  ## a Debian package with the trainer, its own environment and a menu entry: dist/acus_*.deb
 	$(BIN)/python -m tools.deb
+
+wheelhouse: wheel  ## zips to install from without a network on Windows and macOS: WHEELHOUSE="--system macos-arm64"
+	$(BIN)/python -m tools.wheelhouse $(WHEELHOUSE)
 
 clean:
 	rm -rf $(VENV) build dist out app/site

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,6 +20,7 @@ from app.exchange.live.doors import Doors
 from app.exchange.live.journal import LinkJournal
 from app.exchange.moment import Validity
 from app.exercises.scene import placed_plan_of
+from app.imaging.body import find_body, nearest_skin
 from app.imaging.scan_order import ScanOrder
 from app.planning.plan import Plan
 from app.session.trainer import Trainer
@@ -130,6 +132,34 @@ def test_under_control_scans_a_link_is_told_no_more_than_the_student(tmp_path, b
         assert "inserting" not in told
     finally:
         run.rig.own.close()
+
+
+def test_skin_and_structures_are_told_where_the_exercise_shows_them(run, volume_of_phantom):
+    ct = volume_of_phantom
+    board = LiveBoard(surfaces=True)
+    board.open()
+    try:
+        board.attach(run, ct)
+        (skin,) = until(lambda: board.now().surfaces, 90.0)
+        assert (skin.name, skin.skin) == ("skin", True)
+        assert 1000 < len(skin.triangles) <= 6000
+        body = find_body(ct)
+        off = [nearest_skin(body, place) - place for place in 1e3 * skin.points[::200]]
+        assert np.median(np.linalg.norm(off, axis=1)) < 2.5  # the coarse grid of the body
+        assert board.now().surfaces is board.now().surfaces
+        exercise = run.rig.setup.exercise.model_copy(update={"views": ()})
+        run.rig.setup = replace(run.rig.setup, exercise=exercise)
+        assert board.now().surfaces == ()
+        board.detach(run)
+        assert board.now().surfaces == ()
+    finally:
+        board.close()
+
+
+def test_surfaces_that_nobody_asks_for_are_not_made(run, board, volume_of_phantom):
+    board.attach(run, volume_of_phantom)
+    time.sleep(0.3)
+    assert board.now().surfaces == ()
 
 
 def test_events_come_without_names_paths_and_pseudonyms(run, board):

@@ -27,12 +27,16 @@ def export(
     origin: Annotated[
         str, typer.Option(help="Where `world` stands: left-motor (as ICube's) or midpoint.")
     ] = "left-motor",
+    meshes: Annotated[
+        bool, typer.Option("--meshes", help="Draw the parts as meshes: STL files beside FILE.")
+    ] = False,
 ) -> Answer:
     """Write a profile as URDF. The loop is cut at the right arm's end."""
     from app.core.errors import ConfigurationError
     from app.exchange import mjcf
-    from app.exchange.text_export import write_text
+    from app.exchange.text_export import write_bytes, write_text
     from app.exchange.urdf import Origin, write_urdf
+    from app.exchange.urdf_meshes import stl_files
     from app.mechanisms.pantograph.profile import as_pantograph
     from app.mechanisms.profile import load_profile
 
@@ -53,16 +57,20 @@ def export(
         raise ConfigurationError(
             sentence("--origin {origin!r}; valid names: {names}", origin=origin, names=names)
         ) from None
-    write_text(out, write_urdf(as_pantograph(device), where))
+    pantograph = as_pantograph(device)
+    write_text(out, write_urdf(pantograph, where, out.stem if meshes else None))
+    parts = stl_files(pantograph, out.stem) if meshes else {}
+    for name, content in parts.items():
+        write_bytes(out.parent / name, content)
+    files = [out, *(out.parent / name for name in parts)]
     place = where.value.replace("-", " ")
-    return Answer(
-        {"files": [out]},
-        [
-            sentence(
-                "{file}: {profile}, world at the {place}", file=out, profile=profile, place=place
-            )
-        ],
-    )
+    named = {"file": out, "profile": profile, "place": place, "count": len(parts)}
+    line = sentence("{file}: {profile}, world at the {place}", **named)
+    if parts:
+        line = sentence(
+            "{file}: {profile}, world at the {place}, {count} meshes beside it", **named
+        )
+    return Answer({"files": files}, [line])
 
 
 @app.command("mjcf")

@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, IntArray
 from app.core.transform import RigidTransform
 
 
@@ -114,6 +114,23 @@ class LiveScan:
     affine_mm: FloatArray
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class LiveSurface:
+    """The skin, or a structure, as triangles.
+
+    Attributes:
+        name: of it.
+        points: in the patient (DICOM LPS) [m], shape (n, 3).
+        triangles: corners, counter-clockwise seen from outside, shape (m, 3).
+        skin: whether it is the skin, through which others are to be seen.
+    """
+
+    name: str
+    points: FloatArray
+    triangles: IntArray
+    skin: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class LiveEvent:
     """Something that happened.
@@ -140,6 +157,7 @@ class LiveMoment:
         running: whether a trainer runs.
         state: of the attempt; empty without a trainer.
         needle, device, plan, scan: see there.
+        surfaces: of the patient; the same object as long as they are the same.
     """
 
     wall: float
@@ -149,6 +167,7 @@ class LiveMoment:
     device: LiveDevice | None = None
     plan: LivePlan | None = None
     scan: LiveScan | None = None
+    surfaces: tuple[LiveSurface, ...] = ()
 
 
 class LiveSource(Protocol):

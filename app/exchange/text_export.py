@@ -1,4 +1,4 @@
-"""Text files for other programs."""
+"""Files for other programs, whole or not at all."""
 
 from pathlib import Path
 
@@ -13,5 +13,14 @@ def write_text(path: Path, text: str) -> None:
     Raises:
         ExportError: if the file cannot be written.
     """
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file, whole or not at all.
+
+    Raises:
+        ExportError: if the file cannot be written.
+    """
     with writing(path, ExportError):
-        write_atomically(path, text)
+        write_atomically(path, content)

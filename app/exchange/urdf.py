@@ -273,6 +273,15 @@ _NOTHING = 1e-9
 _RINGS, _SPOKES = 8, 72
 
 
+_PARTS = {
+    "panto_base": "base",
+    **{f"panto_{side}_{part}": part for side in ("left", "right") for part in ("link1", "link2")},
+    **{f"panto_{side}_motor": "motor" for side in ("left", "right")},
+    "needle_interaction_link": "hub",
+}
+"""Which mesh a link has; the needle stays the cylinder that its length is read from."""
+
+
 class Origin(StrEnum):
     """Where the root link stands: on the left motor axis, or midway between the motors (Acus)."""
 
@@ -280,11 +289,18 @@ class Origin(StrEnum):
     MIDPOINT = "midpoint"
 
 
-def write_urdf(profile: PantographProfile, origin: Origin = Origin.LEFT_MOTOR) -> str:
+def write_urdf(
+    profile: PantographProfile, origin: Origin = Origin.LEFT_MOTOR, meshes: str | None = None
+) -> str:
     """Return the profile as URDF text.
 
     Effort limits are the profile's torque limit, angle limits what its tilt limit needs; passive
     joints have no effort.
+
+    Args:
+        profile: to write.
+        origin: where the root link stands.
+        meshes: stem of the files of `urdf_meshes`, which lie beside it; None draws boxes.
 
     Raises:
         MechanismError: if the robot does not reach all of its tilt limit.
@@ -309,8 +325,25 @@ def write_urdf(profile: PantographProfile, origin: Origin = Origin.LEFT_MOTOR) -
     _link(robot, "panto_right_end")
     _fixed(robot, "panto_right_link2_to_end", "panto_right_link2", "panto_right_end", along)
     _needle(robot, profile)
+    if meshes is not None:
+        _with_meshes(robot, meshes)
     ET.indent(robot)
     return f"{ET.tostring(robot, encoding='unicode', xml_declaration=True)}\n"
+
+
+def _with_meshes(robot: ET.Element, stem: str) -> None:
+    """Put the meshes in the place of the boxes, and to the links that have none."""
+    for link in robot.iter("link"):
+        part = _PARTS.get(link.get("name", ""))
+        if part is None:
+            continue
+        box = link.find("visual")
+        if box is not None:
+            link.remove(box)
+        visual = ET.SubElement(link, "visual")
+        ET.SubElement(visual, "origin", xyz="0 0 0", rpy="0 0 0")
+        geometry = ET.SubElement(visual, "geometry")
+        ET.SubElement(geometry, "mesh", filename=f"{stem}-{part}.stl")
 
 
 def _arm(

@@ -14,6 +14,7 @@ from app.exchange.moment import (
     LivePlan,
     LivePose,
     LiveScan,
+    LiveSurface,
     Validity,
 )
 
@@ -74,6 +75,13 @@ def scan(slices=3, rows=20, columns=30):
     affine = np.diag([0.7, 0.8, 5.0, 1.0])
     affine[:3, 3] = [-120.0, -95.0, 130.0]
     return LiveScan(1, time.time(), (1000 * k + 30 * j + i - 1000).astype(np.int16), affine)
+
+
+def tetrahedron(name="skin", skin=True, at=(0.0, 0.0, 0.0)):
+    """The smallest closed surface, in the patient [m]."""
+    points = np.array([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]]) + at
+    corners = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    return LiveSurface(name, points, corners, skin)
 
 
 def wait_for(what, seconds=3.0):

@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 import jsonschema
 import numpy as np
 import pytest
-from live_rig import Stage, needle, wait_for
+from live_rig import Stage, needle, tetrahedron, wait_for
 from scipy.spatial.transform import Rotation
 from websockets.exceptions import InvalidHandshake
 from websockets.sync.client import connect
@@ -153,6 +153,46 @@ def test_the_scene_has_path_target_and_the_shaft_from_hub_to_tip(stage, viewer):
 def _alpha(viewer):
     found = {one["id"]: one for one in viewer.hear()[1]["entities"]}
     return found["needle"]["cylinders"][0]["color"]["a"]
+
+
+def test_skin_and_structures_come_once_in_the_patient_s_frame(stage, viewer):
+    stage.change(surfaces=(tetrahedron(), tetrahedron("vena cava", False, (0.01, 0.02, 0.03))))
+    skin, vein = viewer.body("/anatomy")["entities"]
+    assert [one["frame_id"] for one in (skin, vein)] == ["patient", "patient"]
+    assert (skin["id"], vein["id"]) == ("0 skin", "1 vena cava")
+    (triangles,) = vein["triangles"]
+    points = np.array([[place[axis] for axis in "xyz"] for place in triangles["points"]])
+    np.testing.assert_allclose(points, tetrahedron(at=(0.01, 0.02, 0.03)).points, atol=1e-15)
+    a, b, c = np.moveaxis(points[np.array(triangles["indices"]).reshape(-1, 3)], 1, 0)
+    inside = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0
+    assert inside == pytest.approx(0.1**3 / 6.0)  # seen from outside
+    assert skin["triangles"][0]["color"]["a"] < 0.5 < triangles["color"]["a"]
+    assert skin["lifetime"] == {"sec": 0, "nsec": 0}  # for ever
+    with pytest.raises(TimeoutError):
+        viewer.hear(timeout=1.5)
+
+
+def test_of_another_patient_nothing_of_the_one_before_is_left(stage, viewer):
+    stage.change(surfaces=(tetrahedron(),))
+    assert viewer.body("/anatomy")["entities"]
+    stage.change(surfaces=())
+    later = viewer.hear()[1]
+    assert later["entities"] == []
+    assert [one["type"] for one in later["deletions"]] == [1]  # all
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1e308])
+def test_a_pose_that_no_number_can_hold_is_left_out_and_the_next_comes(
+    stage, server, viewer, value
+):
+    stage.change(needle=needle(p_tip=(value, 0.0, 0.0)))
+    viewer.subscribe("/needle/tip")
+    viewer.subscribe("/tf", 8)
+    with suppress(TimeoutError):
+        place = viewer.hear(timeout=0.5)[1]["pose"]["position"]["x"]
+        assert np.isfinite(place)
+    stage.change(needle=needle())
+    assert wait_for(lambda: viewer.hear()[1]["pose"]["position"]["x"] == 0.05)
 
 
 def test_no_more_comes_once_it_is_not_wanted(viewer):

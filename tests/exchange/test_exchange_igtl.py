@@ -4,6 +4,7 @@ The sums are those in the standard messages of github.com/openigtlink/OpenIGTLin
 igtl_test_data_*.h): a CRC of 64 bits in the header holds every byte of the body.
 """
 
+import errno
 import socket
 import struct
 import threading
@@ -17,6 +18,7 @@ from crcmod import mkCrcFun
 from live_rig import HEAD_UP, PLAN, Stage, knock, needle, scan, wait_for
 
 from app.exchange.errors import LinkAddressError, LinkMessageError
+from app.exchange.live import doors as doors_module
 from app.exchange.live import igtl_messages as igtl
 from app.exchange.live.doors import Doors
 from app.exchange.live.igtl import IgtlServer
@@ -314,6 +316,24 @@ def test_a_port_in_use_is_one_line(server):
         LinkAddressError, match=f"OpenIGTLink cannot listen .*{server.port}.*in use"
     ):
         IgtlServer(Stage(), Doors(), server.port).open()
+
+
+@pytest.mark.parametrize(("absent", "left"), [(socket.AF_INET, "[::1]"), (socket.AF_INET6, "127.")])
+def test_a_computer_that_has_one_kind_of_address_alone_is_served_there(monkeypatch, absent, left):
+    class Half(socket.socket):
+        def bind(self, place):
+            if self.family == absent:
+                raise OSError(errno.EADDRNOTAVAIL, "Cannot assign requested address")
+            super().bind(place)
+
+    monkeypatch.setattr(doors_module.socket, "socket", Half)
+    opened = Doors().listen(0, "OpenIGTLink")
+    assert doors_module.address_of(opened).startswith(left)
+    for one in opened:
+        one.close()
+    none = "127.0.0.1" if absent == socket.AF_INET else "::1"
+    with pytest.raises(LinkAddressError, match=f"OpenIGTLink: {none} is no address here"):
+        Doors(none).listen(0, "OpenIGTLink")
 
 
 def test_off_this_computer_nobody_is_served_without_a_list():

@@ -1,8 +1,11 @@
 """Statements to a record store that misbehaves in each way: nothing lost, nothing twice."""
 
+import errno
 import json
 import logging
+import os
 import random
+import socket
 import ssl
 import sys
 from dataclasses import replace
@@ -29,6 +32,8 @@ from app.exchange.lrs import (
     put_lrs,
     tell_attempts,
 )
+from app.session import statement_queue
+from app.session.errors import SessionError
 from app.session.people import Remarks
 from app.session.statement_queue import StatementQueue
 
@@ -231,6 +236,59 @@ def test_a_program_that_ends_before_it_notes_the_sending_sends_nothing_twice(que
         assert len(ids(queue)) == 4
         assert deliver(where, queue).sent == 4
     assert len(server.held) == 4
+
+
+def full(monkeypatch, *kinds):
+    """Have the disk full for files of these kinds; returns what ends it."""
+    write = statement_queue.write_atomically
+
+    def refuse(path, text):
+        if path.name.startswith(kinds):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        write(path, text)
+
+    monkeypatch.setattr(statement_queue, "write_atomically", refuse)
+    return lambda: monkeypatch.setattr(statement_queue, "write_atomically", write)
+
+
+def test_a_full_disk_takes_no_statement_and_loses_none(queue, monkeypatch):
+    with ScriptedLrs() as server:
+        where = place(server)
+        assert tell_attempts(results(*SOME[:2]), where, queue) == 2
+        before, freed = ids(queue), full(monkeypatch, "waiting-")
+        with pytest.raises(SessionError, match=r"cannot write .*: No space left on device"):
+            tell_attempts(results(*SOME), where, queue)
+        assert ids(queue) == before
+        freed()
+        assert tell_attempts(results(*SOME), where, queue) == 2
+        assert deliver(where, queue).sent == 4
+    assert len(server.held) == 4
+
+
+def test_what_arrived_while_the_disk_was_full_is_not_there_twice(queue, monkeypatch):
+    with ScriptedLrs() as server:
+        where = filled(queue, server)
+        freed = full(monkeypatch, "sent-")
+        with pytest.raises(SessionError, match="No space left on device"):
+            deliver(where, queue)
+        assert len(ids(queue)) == 4
+        freed()
+        assert deliver(where, queue).sent == 4
+    assert len(server.held) == 4
+
+
+def test_a_computer_without_a_network_is_told_in_one_line_and_keeps_all(queue, monkeypatch):
+    def no_network(*_, **__):
+        raise socket.gaierror(socket.EAI_AGAIN, "Temporary failure in name resolution")
+
+    with ScriptedLrs() as server:
+        where = filled(queue, server)
+    monkeypatch.setattr(socket, "getaddrinfo", no_network)
+    with pytest.raises(UnreachableLrsError) as caught:
+        deliver(where, queue)
+    assert "nothing is lost" in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert len(ids(queue)) == 4
 
 
 @pytest.mark.parametrize("fault", ["hangs", "500", "closes"])

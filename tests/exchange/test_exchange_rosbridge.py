@@ -181,6 +181,27 @@ def test_numbers_that_are_none_are_not_sent(stage, server, peer):
     assert hear_one(peer, "/angle_error") == {"data": 0.1}
 
 
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1e308])
+@pytest.mark.parametrize("topic", ["/tf", "/needle_pose"])
+def test_a_pose_that_no_number_can_hold_is_left_out_and_the_peer_stays(stage, peer, topic, value):
+    stage.change(needle=needle(p_tip=(value, 0.0, 0.0)))
+    say(peer, op="subscribe", topic=topic)
+    say(peer, op="subscribe", topic="/angle_error")
+    said = hear(peer)
+    while said["topic"] != "/angle_error":  # it is told once
+        json.dumps(said, allow_nan=False)
+        said = hear(peer)
+    stage.change(needle=needle())
+    assert wait_for(lambda: hear(peer)["topic"] == topic)
+
+
+def test_joint_angles_that_are_none_are_not_sent_as_cbor_either(stage, server, peer):
+    stage.change(device=type(device())(("a",), np.array([np.nan]), *[np.zeros(1)] * 2,
+                                       np.zeros(3), 0.1, 1.0))  # fmt: skip
+    say(peer, op="subscribe", topic="/joint_states", compression="cbor")
+    assert wait_for(lambda: "not finite" in server.journal.last)
+
+
 # --- what is asked --------------------------------------------------------------------------------
 def call(peer, service, args, name="call:1"):
     say(peer, op="call_service", id=name, service=service, args=args)

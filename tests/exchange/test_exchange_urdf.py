@@ -110,9 +110,28 @@ def test_a_thousand_poses_are_those_of_pinocchio_s_tree():
     """Pinocchio reads the URDF; its needle is where ours is, to 1e-9 m, hub and direction too."""
     pinocchio = pytest.importorskip("pinocchio", reason="the extra `arm` is not installed")
     model = pinocchio.buildModelFromXML(write_urdf(PROFILE, Origin.MIDPOINT))
-    data, geometry, rng = model.createData(), PROFILE.pantograph, np.random.default_rng(7)
+    data = model.createData()
     place = {name: model.joints[model.getJointId(name)].idx_q for name in model.names[1:]}
     worst = 0.0
+    for angles, tool, hub, up in _thousand_poses():
+        values = np.zeros(model.nq)
+        for name, angle in angles.items():
+            values[place[name]] = angle
+        pinocchio.framesForwardKinematics(model, data, values)
+        frames = {name: data.oMf[model.getFrameId(name)] for name in FRAMES}
+        worst = max(
+            worst,
+            np.abs(frames["panto_tool0"].translation - tool).max(),
+            np.abs(frames["panto_right_end"].translation - tool).max(),
+            np.abs(frames["needle_interaction_link"].translation - hub).max(),
+            np.abs(frames["needle_interaction_link"].rotation[:, 2] - up).max(),
+        )
+    assert worst < 1e-9
+
+
+def _thousand_poses():
+    """Angles by joint, and where tool and hub are then [m] and the needle's direction upwards."""
+    geometry, rng = PROFILE.pantograph, np.random.default_rng(7)
     for _ in range(1000):
         lean, turn = PROFILE.tilt_limit * rng.uniform(0.01, 0.99), rng.uniform(-np.pi, np.pi)
         axis = np.array([np.sin(lean) * np.cos(turn), np.sin(lean) * np.sin(turn), -np.cos(lean)])
@@ -130,19 +149,93 @@ def test_a_thousand_poses_are_those_of_pinocchio_s_tree():
             "tool_phi_joint": np.arctan2(np.hypot(up[0], up[1]), up[2]),
             "needle_interaction_joint": np.linalg.norm(hub - tool),
         }
-        values = np.zeros(model.nq)
-        for name, angle in angles.items():
-            values[place[name]] = angle
-        pinocchio.framesForwardKinematics(model, data, values)
-        frames = {name: data.oMf[model.getFrameId(name)] for name in FRAMES}
+        yield angles, tool, hub, up
+
+
+@pytest.fixture(scope="module")
+def with_meshes(tmp_path_factory):
+    """A URDF with its meshes, as the command writes them."""
+    out = tmp_path_factory.mktemp("urdf") / "robot.urdf"
+    arguments = ["urdf", "export", "--out", str(out), "--origin", "midpoint", "--meshes"]
+    done = RUN.invoke(build(), arguments, catch_exceptions=False)
+    assert "5 meshes beside it" in done.stdout
+    return out
+
+
+def test_a_thousand_poses_with_meshes_are_those_of_mujoco(with_meshes):
+    model = mujoco.MjModel.from_xml_string(
+        _for_mujoco(with_meshes.read_text()),
+        {file.name: file.read_bytes() for file in with_meshes.parent.glob("*.stl")},
+    )
+    assert model.nmesh == 5
+    assert (model.geom_type == mujoco.mjtGeom.mjGEOM_MESH).sum() == 8
+    data, worst = mujoco.MjData(model), 0.0
+    for angles, tool, hub, up in _thousand_poses():
+        for joint, angle in angles.items():
+            data.qpos[model.joint(joint).qposadr[0]] = angle
+        mujoco.mj_kinematics(model, data)
         worst = max(
             worst,
-            np.abs(frames["panto_tool0"].translation - tool).max(),
-            np.abs(frames["panto_right_end"].translation - tool).max(),
-            np.abs(frames["needle_interaction_link"].translation - hub).max(),
-            np.abs(frames["needle_interaction_link"].rotation[:, 2] - up).max(),
+            np.abs(data.body("panto_tool0").xpos - tool).max(),
+            np.abs(data.body("panto_right_end").xpos - tool).max(),
+            np.abs(data.body("needle_interaction_link").xpos - hub).max(),
+            np.abs(data.body("needle_interaction_link").xmat.reshape(3, 3)[:, 2] - up).max(),
         )
     assert worst < 1e-9
+
+
+def test_a_thousand_poses_with_meshes_are_those_of_yourdfpy(with_meshes):
+    yourdfpy = pytest.importorskip("yourdfpy", reason="yourdfpy is not installed")
+    robot = yourdfpy.URDF.load(str(with_meshes))
+    assert len(robot.scene.geometry) == 9  # eight meshes, and the needle's cylinder
+    worst = 0.0
+    for angles, tool, hub, up in _thousand_poses():
+        robot.update_cfg(angles)
+        end = robot.get_transform("needle_interaction_link", "world")
+        worst = max(
+            worst,
+            np.abs(robot.get_transform("panto_tool0", "world")[:3, 3] - tool).max(),
+            np.abs(robot.get_transform("panto_right_end", "world")[:3, 3] - tool).max(),
+            np.abs(end[:3, 3] - hub).max(),
+            np.abs(end[:3, 2] - up).max(),
+        )
+    assert worst < 1e-9
+
+
+def test_the_meshes_are_closed_and_of_the_profile_s_lengths(with_meshes):
+    """VTK reads them: no open edge; bounds, and volumes of a plate with ends of 24 corners."""
+    from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkMassProperties
+    from vtkmodules.vtkIOGeometry import vtkSTLReader
+
+    for part, length in (
+        ("base", PROFILE.geometry.base),
+        ("link1", PROFILE.geometry.proximal),
+        ("link2", PROFILE.geometry.distal),
+        ("motor", None),
+        ("hub", None),
+    ):
+        reader, clean, edges = vtkSTLReader(), vtkCleanPolyData(), vtkFeatureEdges()
+        reader.SetFileName(str(with_meshes.with_name(f"robot-{part}.stl")))
+        clean.SetInputConnection(reader.GetOutputPort())
+        edges.SetInputConnection(clean.GetOutputPort())
+        edges.FeatureEdgesOff()
+        edges.ManifoldEdgesOff()
+        edges.Update()
+        assert edges.GetOutput().GetNumberOfCells() == 0, part
+        if length is None:
+            continue
+        low_x, high_x, low_y, high_y, low_z, high_z = clean.GetOutput().GetBounds()
+        width, thick = high_y - low_y, high_z - low_z
+        assert high_x - low_x == pytest.approx(length + width, abs=1e-6)
+        mass = vtkMassProperties()
+        mass.SetInputConnection(clean.GetOutputPort())
+        ends = 12.0 * (0.5 * width) ** 2 * np.sin(np.pi / 12.0)
+        assert mass.GetVolume() == pytest.approx(thick * (length * width + ends), rel=1e-4)
+
+
+def test_a_urdf_without_meshes_is_as_it_was_and_lengths_come_back_from_one_with_them(with_meshes):
+    assert "<mesh" not in write_urdf(PROFILE)
+    assert read_geometry(with_meshes).needle_length == PROFILE.geometry.needle_length
 
 
 FRAMES = ("panto_tool0", "panto_right_end", "needle_interaction_link")

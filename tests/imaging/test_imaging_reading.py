@@ -2,12 +2,15 @@
 
 import hashlib
 import json
+import sys
 
 import numpy as np
 import pytest
 
 from app.core.progress import Cancelled, Progress
+from app.imaging import codecs
 from app.imaging.errors import SeriesAmbiguousError, SeriesUnknownError
+from app.imaging.pixel_data import PixelFormat
 from app.imaging.reading import load_ct, pixel_lps_mm, read_series
 from app.imaging.scanning import scan_folder
 from tests.imaging import dicom_factory as factory
@@ -188,3 +191,17 @@ def test_lossless_encodings_decode_to_one_array(shared_data, tmp_path):
         values[word] = [pixel_lps_mm(folder, header.identity.sop_uid, *at)[1] for at in spots]
     first = values["LittleEndianImplicit"]
     assert all(value == first for value in values.values())
+
+
+@pytest.mark.parametrize("bits", [8, 12, 16])
+def test_jpeg_ls_is_decoded_to_the_same_where_pyjpegls_is_missing(monkeypatch, bits):
+    from jpeg_ls import encode_buffer
+
+    width = 1 if bits == 8 else 2
+    values = np.random.default_rng(bits).integers(0, 1 << bits, (40, 30)).astype(f"<u{width}")
+    frame = bytes(encode_buffer(values.tobytes(), 40, 30, 1, bits))
+    form = PixelFormat(40, 30, 1, 1, 8 * width, bits, bits - 1, False, "MONOCHROME2", None)
+    monkeypatch.setitem(sys.modules, "jpeg_ls", None)  # as under Python 3.14
+    found = np.zeros_like(values)
+    codecs.decode(frame, "1.2.840.10008.1.2.4.80", form, found)
+    np.testing.assert_array_equal(found, values)

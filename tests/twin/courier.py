@@ -83,10 +83,16 @@ class Courier:
             self._waiting[to].append(self.ended[-1])
 
     def finish(self, seconds: float) -> bool:
-        """Wait until nothing waits, then end; return whether nothing is left."""
-        end = time.monotonic() + seconds
+        """Wait until nothing waits, or nothing has gone for so long, then end.
+
+        Returns:
+            Whether nothing is left.
+        """
+        gone, end = len(self.sendings), time.monotonic() + seconds
         while any(self._waiting.values()) and time.monotonic() < end:
             time.sleep(0.1)
+            if len(self.sendings) > gone and self.sendings[-1].done:
+                gone, end = len(self.sendings), time.monotonic() + seconds
         self._over.set()
         for one in self._threads:
             one.join(60.0)

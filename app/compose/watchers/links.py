@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from app.compose.live_surfaces import live_surfaces
 from app.core.arrays import FloatArray
 from app.core.errors import ConfigurationError
 from app.core.events import Event, EventQueue
@@ -33,8 +34,10 @@ from app.exchange.moment import (
     LivePlan,
     LivePose,
     LiveScan,
+    LiveSurface,
     Validity,
 )
+from app.exercises.parts import ViewName
 from app.session.control_scan import ControlScan
 from app.session.machine import RUNNING
 from app.session.needle import NeedlePose
@@ -105,7 +108,7 @@ class Links:
     """
 
     def __init__(self, ports: Mapping[str, int], doors: Doors, made: str = "") -> None:
-        self.board = LiveBoard()
+        self.board = LiveBoard(surfaces="foxglove" in ports)
         self._made = made
         self.servers = tuple(_server(name, self.board, doors, port) for name, port in ports.items())
 
@@ -210,18 +213,23 @@ class _WatchedRun:
 class LiveBoard:
     """Implements `exchange.moment.LiveSource`.
 
+    Args:
+        surfaces: whether skin and structures are asked for; they are made in the board's thread.
+
     Attributes:
         journal: lines that are of no link alone.
         on_plan: takes plans of peers; None where nobody does.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, surfaces: bool = False) -> None:
         self.journal = LinkJournal()
         self.on_plan: Callable[[FloatArray, FloatArray], str] | None = None
         self._clock = WallClock(self.journal)
         self._watched: _WatchedRun | None = None
         self._plan: tuple[PlacedPlan, LivePlan] | None = None
         self._scan: LiveScan | None = None
+        self._shapes, self._shaped = surfaces, False
+        self._surfaces: tuple[LiveSurface, ...] = ()
         self._events: deque[LiveEvent] = deque(maxlen=KEPT)
         self._count = 0
         self._lock = threading.Lock()
@@ -244,13 +252,14 @@ class LiveBoard:
     def attach(self, run: WatchedRun, volume: Volume | None) -> None:
         """Tell of this run from now on."""
         watched = _WatchedRun(run, run.rig.trainer.events.follow(), volume)
+        self._surfaces, self._shaped = (), not self._shapes
         self._watched, self._scan = watched, None
 
     def detach(self, run: WatchedRun) -> None:
         """Tell of it no more; nothing happens where another one is told of."""
         watched = self._watched
         if watched is not None and watched.run is run:
-            self._watched, self._scan = None, None
+            self._watched, self._scan, self._surfaces = None, None, ()
 
     # --- what a link asks -----------------------------------------------------------------------
     def now(self) -> LiveMoment:
@@ -272,6 +281,7 @@ class LiveBoard:
             _device(snapshot, since) if shown.live else None,
             self._placed(placed, length),
             self._scan,
+            self._surfaces if shown.shows(ViewName.THREE_D) else (),
         )
 
     def events_after(self, number: int) -> tuple[LiveEvent, ...]:
@@ -306,11 +316,24 @@ class LiveBoard:
             watched = self._watched
             if watched is None:
                 continue
+            if not self._shaped:
+                self._shape(watched)
             try:
                 for event in watched.events.drain():
                     self._take(event, watched)
             except Exception as error:  # one event is not told; the attempt knows nothing of it
                 self.journal.say(f"an event is not told: {type(error).__name__}: {error}")
+
+    def _shape(self, watched: _WatchedRun) -> None:
+        """Make skin and structures of a run, once; the links have none until then."""
+        self._shaped = True
+        try:
+            made = live_surfaces(watched.volume, watched.run.rig.setup.risks)
+        except Exception as error:  # the scene is told without them
+            self.journal.say(f"no surfaces are told: {type(error).__name__}: {error}")
+            return
+        if self._watched is watched:
+            self._surfaces = made
 
     def _take(self, event: Event, watched: _WatchedRun) -> None:
         rig = watched.run.rig

@@ -3,6 +3,7 @@
 import threading
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -22,6 +23,7 @@ class Inbox:
         self._lock = threading.Lock()
         self.values: FloatArray = np.zeros(sv.INPUTS)
         self.sequence = np.zeros(1, dtype=np.int64)
+        self._slots: dict[tuple[str, ...], NDArray[np.int64]] = {}
 
     def write(self, **values: float) -> None:
         """Set inputs by name, all seen by the same tick, e.g. `write(assistance=0.5, enabled=1)`.
@@ -29,16 +31,10 @@ class Inbox:
         Raises:
             UnknownInputError: if a name is not an input; names those that are.
         """
-        for name in values:
-            if name not in INPUT_NAMES:
-                raise UnknownInputError(
-                    sentence(
-                        "the loop has no input {name!r}; valid names: {input_names}",
-                        name=name,
-                        input_names=", ".join(INPUT_NAMES),
-                    )
-                )
-        slots = np.array([sv.INDEX[name] for name in values], dtype=np.int64)
+        names = tuple(values)
+        slots = self._slots.get(names)
+        if slots is None:
+            slots = self._slots[names] = _slots_of(names)
         numbers = np.array(list(values.values()), dtype=np.float64)
         with self._lock:
             kernel.post(self.values, self.sequence, slots, numbers)
@@ -47,6 +43,19 @@ class Inbox:
         """Return what was written last, by name."""
         with self._lock:
             return {name: float(self.values[sv.INDEX[name]]) for name in INPUT_NAMES}
+
+
+def _slots_of(names: tuple[str, ...]) -> NDArray[np.int64]:
+    for name in names:
+        if name not in INPUT_NAMES:
+            raise UnknownInputError(
+                sentence(
+                    "the loop has no input {name!r}; valid names: {input_names}",
+                    name=name,
+                    input_names=", ".join(INPUT_NAMES),
+                )
+            )
+    return np.array([sv.INDEX[name] for name in names], dtype=np.int64)
 
 
 class TickHistory:
@@ -73,7 +82,12 @@ class TickHistory:
         capacity = len(self.ring)
         head = self.head
         first = max(since_tick, head - capacity + 1, 0)
-        copy = self.ring[np.arange(first, head) % capacity]
+        begin, end = first % capacity, head % capacity
+        copy = (
+            self.ring[begin:end].copy()
+            if begin < end
+            else self.ring[np.arange(first, head) % capacity]
+        )
         overwritten = self.head - capacity + 1 - first
         return copy[max(overwritten, 0) :]
 

@@ -6,6 +6,7 @@ one, else a list of the addresses that may come in.
 
 from __future__ import annotations
 
+import errno
 import hmac
 import socket
 from collections.abc import Sequence
@@ -193,14 +194,14 @@ def _listening(family: int, place: tuple[str, int], before: list[socket.socket])
         one.setblocking(False)
     except OSError as error:
         one.close()
-        if before and isinstance(error, OSError) and error.errno in _ABSENT:
+        if error.errno in _ABSENT:
             raise _NoSuchFamilyError from error
         raise
     return one
 
 
-_ABSENT: Final = frozenset({97, 99})
-"""EAFNOSUPPORT, EADDRNOTAVAIL: no IPv6 here."""
+_ABSENT: Final = frozenset({errno.EAFNOSUPPORT, errno.EADDRNOTAVAIL})
+"""No IPv4, or no IPv6, here: either alone is enough."""
 
 
 def _is_loopback(host: str) -> bool:

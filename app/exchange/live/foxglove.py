@@ -16,14 +16,14 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.errors import AcusError
+from app.core.errors import AcusError, NumericalError
 from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.exchange.errors import LinkMessageError
 from app.exchange.live.doors import Doors
 from app.exchange.live.journal import LinkJournal
 from app.exchange.live.web_sockets import SocketPeer, WebSocketServer, both
-from app.exchange.moment import LiveEvent, LiveMoment, LiveSource, Validity
+from app.exchange.moment import LiveEvent, LiveMoment, LiveSource, LiveSurface, Validity
 from app.exchange.ros_topics import Told, quaternion, tip_pose, xyz
 from app.session.schemas import FRAME_TRANSFORM, JOINT_STATES, LOG, POSE_IN_FRAME, Schema
 
@@ -39,6 +39,7 @@ _DIAMETER: Final = 0.00127
 
 _SHAFT, _GREY = (0.9, 0.9, 0.95, 1.0), (0.5, 0.5, 0.5, 0.5)
 _PATH, _ENTRY, _TARGET = (0.2, 0.8, 0.2, 1.0), (0.2, 0.6, 1.0, 1.0), (1.0, 0.3, 0.2, 0.9)
+_SKIN, _RISK = (0.85, 0.65, 0.55, 0.25), (0.9, 0.25, 0.25, 0.8)
 
 
 def _list(items: Schema) -> Schema:
@@ -206,6 +207,31 @@ def _scene(moment: LiveMoment) -> Told | None:
     return Told((key, id(plan), int(moment.wall)), told)
 
 
+def _anatomy(moment: LiveMoment) -> Told | None:
+    """Skin and structures, in the patient's frame, when they change: once to each subscriber.
+
+    A change of registration needs no new ones: `/tf` turns the frame. With another patient, or
+    none, those of the one before are taken away.
+    """
+    entities = [
+        _entity(f"{number} {one.name}", moment.wall, triangles=[_triangles(one)])
+        | {"frame_id": "patient"}
+        for number, one in enumerate(moment.surfaces)
+    ]
+    everything = {"timestamp": stamp(moment.wall), "type": 1, "id": ""}
+    return Told(moment.surfaces, {"deletions": [everything], "entities": entities})
+
+
+def _triangles(surface: LiveSurface) -> dict[str, Any]:
+    return {
+        "pose": _pose(np.zeros(3), np.eye(3)),
+        "points": [dict(zip("xyz", place, strict=True)) for place in surface.points.tolist()],
+        "color": _colour(_SKIN if surface.skin else _RISK),
+        "colors": [],
+        "indices": surface.triangles.ravel().tolist(),
+    }
+
+
 @dataclass(frozen=True, slots=True)
 class _Channel:
     topic: str
@@ -222,6 +248,7 @@ CHANNELS: Final[Mapping[int, _Channel]] = {
     4: _Channel("/haptic/joints", JOINT_STATES, _joints),
     5: _Channel("/haptic/force", FORCE, _force),
     6: _Channel(EVENTS, LOG, lambda _: None),  # one by one, by `_log`
+    7: _Channel("/anatomy", SCENE_UPDATE, _anatomy),
 }
 """By their number in the protocol."""
 
@@ -285,7 +312,11 @@ class _FoxgloveTalk:
                 self._event = happened.number
                 await self._send(subscription, happened.wall, _log(happened))
             return
-        message = channel.of(moment)
+        try:
+            message = channel.of(moment)
+        except NumericalError:  # of a pose that is none; the peer stays
+            self._journal.say(f"{channel.topic} is not finite, and not sent", "not finite")
+            return
         if message is not None and message.key != self._keys.get(subscription):
             self._keys[subscription] = message.key
             await self._send(subscription, moment.wall, message.body)

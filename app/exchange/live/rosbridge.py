@@ -18,6 +18,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.errors import NumericalError
 from app.core.messages import sentence
 from app.exchange.errors import LinkMessageError
 from app.exchange.live.doors import Doors
@@ -92,7 +93,11 @@ class _Talk:
                 wanted.event = happened.number
                 await self._send_message(wanted, event(happened))
             return
-        told = TOPICS[wanted.topic].of(moment)
+        try:
+            told = TOPICS[wanted.topic].of(moment)
+        except NumericalError:  # of a pose that is none; the peer stays
+            self._journal.say(f"a message of {wanted.topic} is not finite", "not finite")
+            return
         if told is not None and told.key != wanted.key:
             wanted.key, wanted.due = told.key, now + wanted.period
             await self._send_message(wanted, told.body)
@@ -290,11 +295,16 @@ def as_json(document: Mapping[str, Any]) -> str:
 
 
 def as_cbor(document: Mapping[str, Any]) -> bytes:
-    """Return a message as CBOR; arrays of numbers as typed arrays."""
+    """Return a message as CBOR; arrays of numbers as typed arrays.
+
+    Raises:
+        ValueError: if a number of an array is not finite.
+    """
     import cbor2
 
     def typed(encoder: Any, array: Any) -> None:
-        encoder.encode(cbor2.CBORTag(_TYPED_FLOAT64, np.asarray(array, dtype="<f8").tobytes()))
+        finite = np.asarray_chkfinite(array, dtype="<f8")
+        encoder.encode(cbor2.CBORTag(_TYPED_FLOAT64, finite.tobytes()))
 
     return cbor2.dumps(document, default=typed)
 
