@@ -3,7 +3,7 @@
 import pytest
 
 from app.exercises.schema import Exercise
-from app.views.kit.form import limits
+from app.views.kit.document import limits
 
 
 @pytest.mark.parametrize(

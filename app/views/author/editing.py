@@ -25,7 +25,7 @@ from app.planning.patient import Patient
 from app.scoring import metrics
 from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.scoring.met import FORBIDDEN
-from app.views.kit.form import Document, Where, put_value, value_at
+from app.views.kit.document import Document, Where, put_value, value_at
 from app.views.kit.text import tr
 
 DRAWN: Final = "as-drawn-in-the-window.seg.nrrd"

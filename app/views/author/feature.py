@@ -71,8 +71,8 @@ from app.views.author.score_page import ScorePage
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.document import Where
 from app.views.kit.field_words import problem_words
-from app.views.kit.form import Where
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label

@@ -14,7 +14,7 @@ from app.imaging.window import PRESETS
 from app.views.author.editing import ExerciseEditor
 from app.views.author.page import Page
 from app.views.author.parts_box import PartsBox
-from app.views.kit.form import Where
+from app.views.kit.document import Where
 from app.views.kit.parts import button
 from app.views.kit.text import literal, tr
 from app.views.reading.lock_words import view_title

@@ -8,7 +8,8 @@ from typing import Any
 from app.core.configuration import FieldProblem
 from app.exercises.schema import Exercise
 from app.views.author.editing import ExerciseEditor
-from app.views.kit.form import Form, Where
+from app.views.kit.document import Where
+from app.views.kit.form import Form
 
 
 class Page(Form):

@@ -19,8 +19,9 @@ from app.views.author.editing import DRAWN, ExerciseEditor, bone_words, default_
 from app.views.author.page import Page
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
+from app.views.kit.document import Where
 from app.views.kit.field_words import problem_words
-from app.views.kit.form import Choice, Where
+from app.views.kit.form import Choice
 from app.views.kit.parts import button, label, table
 from app.views.kit.text import tr
 from app.views.kit.wheel import wheel_scrolls

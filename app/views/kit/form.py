@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -31,76 +31,18 @@ from PySide6.QtWidgets import (
 
 from app.core.configuration import FieldProblem, Shown
 from app.views.kit import theme
+from app.views.kit.document import Document, Range, Where, field_of, limits, put_value, value_at
 from app.views.kit.field_words import place_words, problem_words
 from app.views.kit.parts import PlainLabel, column, label
 from app.views.kit.text import declared, literal
 
-Document = dict[str, Any]
-Where = tuple[str, ...]
-"""Names of fields, from the outside to the inside."""
-
 Choice = Sequence[tuple[Any, str]]
 """Values with their titles."""
-
-Range = tuple[Any, Any, Any]
-"""Smallest and largest value, and the one to begin with."""
 
 Spin = TypeVar("Spin", QSpinBox, QDoubleSpinBox)
 
 UNITS = {"mm": "mm", "s": "s"}
 """Ends of names that say a unit."""
-
-
-def field_of(model: type[BaseModel], *where: str) -> FieldInfo:
-    """Return a field of a model, or of one within it.
-
-    Raises:
-        KeyError: if there is no such field.
-    """
-    inner: Any = model
-    for name in where:
-        field: FieldInfo = getattr(inner, "model_fields", {})[name]
-        kinds = field.annotation, *get_args(field.annotation)
-        inner = next((kind for kind in kinds if hasattr(kind, "model_fields")), None)
-    return field
-
-
-def limits(model: type[BaseModel], *where: str) -> Range:
-    """Return smallest and largest value and default of a number, as a model has them.
-
-    Where it has no largest one it is that of a box of whole numbers; what must be more than a limit
-    is a hundredth above it.
-
-    Raises:
-        KeyError: if there is no such field.
-    """
-    low, high, field = None, 2**31 - 1, field_of(model, *where)
-    for rule in field.metadata:
-        low = rule.gt + 0.01 if hasattr(rule, "gt") else getattr(rule, "ge", low)
-        high = getattr(rule, "le", high)
-    return low, high, field.default
-
-
-def value_at(document: object, *where: str, default: Any = None) -> Any:
-    """Return a value of a document; `default` where nothing is said of it."""
-    for name in where:
-        if not isinstance(document, Mapping) or name not in document:
-            return default
-        document = document[name]
-    return document
-
-
-def put_value(document: Document, where: Where, value: Any) -> None:
-    """Set a value of a document, or take it away with None."""
-    for name in where[:-1]:
-        inner = document.get(name)
-        if not isinstance(inner, dict):
-            inner = document[name] = {}
-        document = inner
-    if value is None:
-        document.pop(where[-1], None)
-    else:
-        document[where[-1]] = value
 
 
 class Form(QWidget):
@@ -114,6 +56,7 @@ class Form(QWidget):
         parent: dialog or page.
         title: of the form, for messages; a page shows it.
         page: whether it is a page: names above, and below each field what is wrong with it.
+        spacing: between rows that are not a page's [px]; the usual one without.
 
     Attributes:
         fields, names: editors and labels of the rows.
@@ -130,6 +73,7 @@ class Form(QWidget):
         parent: QWidget | None = None,
         title: str = "",
         page: bool = False,
+        spacing: int = -1,
     ) -> None:
         super().__init__(parent)
         self._model, self.title = model, title
@@ -142,6 +86,7 @@ class Form(QWidget):
         self.rows = column(self, title) if page else QVBoxLayout(self)
         if self._beside is not None:
             self._beside.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+            self._beside.setVerticalSpacing(spacing)
             self.rows.setContentsMargins(0, 0, 0, 0)
             self.rows.addLayout(self._beside)
 
@@ -210,12 +155,17 @@ class Form(QWidget):
             self.rows.addLayout(field)
 
     @contextmanager
-    def together(self, title: str) -> Iterator[QHBoxLayout]:
-        """Put the rows that follow side by side into one, beside what else is put there."""
+    def together(self, *where: str, title: str = "") -> Iterator[QHBoxLayout]:
+        """Put the rows that follow side by side into one, beside what else is put there.
+
+        Args:
+            where: the field whose title the row has, where it is given none.
+            title: of the row.
+        """
         before, self._together = set(self.fields), QHBoxLayout()
         yield self._together
         line, self._together = self._together, None
-        name = self.row(title, line)
+        name = self.row(title or declared(self._shown(where).title), line)
         self.names |= dict.fromkeys(set(self.fields) - before, name)
 
     def add(
