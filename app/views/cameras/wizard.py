@@ -200,9 +200,9 @@ class BoardPage(QWidget):
         self.kind = form.choice("kind", title=tr("Kind"), among=kinds)
         counts = (3, 60, 3)
         with form.together(title=tr("Squares")) as line:
-            self.columns = form.count("columns", title=tr("Columns"), within=counts)
+            self.columns = form.count("columns", within=counts)
             line.addWidget(PlainLabel("×"))
-            self.rows = form.count("rows", title=tr("Rows"), within=counts)
+            self.rows = form.count("rows", within=counts)
             line.addStretch(1)
         side, marker = (0.5, 500.0, 20.0), (0.5, 500.0, 15.0)
         self.square = form.number("square", title=tr("Side of a square"), unit="mm", within=side)

@@ -254,6 +254,7 @@ class Form(QWidget):
             if read(line.text()) != value:
                 line.setText(write(value))
 
+        show(None)
         line.textEdited.connect(lambda text: self.edited.emit(where, read(text), True))
         self.add(where, title, line, show, lambda: read(line.text()))
         return line
