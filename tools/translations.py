@@ -36,8 +36,8 @@ _CODE = re.compile(r"`[^`]*`")
 def declared_texts() -> list[str]:
     """Return the texts that `lupdate` does not see.
 
-    Titles of declarations in `app`, texts marked inside f-strings, titles and descriptions of
-    exercises and plans of courses that ship.
+    Titles of declarations and of fields in `app`, texts marked inside f-strings, titles and
+    descriptions of exercises and plans of courses that ship.
     """
     texts: set[str] = set()
     for path in (ROOT / "app").rglob("*.py"):
@@ -46,6 +46,7 @@ def declared_texts() -> list[str]:
         texts.update(_within_texts(tree))
         if "DECLARATION" in text:
             texts.update(_titles(tree))
+        texts.update(_of_fields(tree))
     for file in (paths.resources() / "exercises").glob("*.yaml"):
         exercise = load_exercise(file.stem)
         texts.update(text for text in (exercise.title, exercise.description) if text)
@@ -118,6 +119,13 @@ def _titles(tree: ast.Module) -> Iterator[str]:
         titled = isinstance(key, ast.Constant) and key.value == "title"
         if titled and isinstance(value, ast.Constant) and isinstance(value.value, str):
             yield value.value
+
+
+def _of_fields(tree: ast.Module) -> Iterator[str]:
+    """Yield titles and helps of fields of models, which forms show."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Shown":
+            yield from (part.value for part in node.args if isinstance(part, ast.Constant))
 
 
 def _within_texts(tree: ast.Module) -> Iterator[str]:

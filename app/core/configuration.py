@@ -26,6 +26,21 @@ MOST_PROBLEMS = 12
 """A message names so many wrong values; a list may hold thousands."""
 
 
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """Say how a form shows a field of a model: `Annotated[str, Shown("Host", "its name")]`.
+
+    Attributes:
+        title: of its row, in English; `tools.translations` collects it.
+        help: what to fill in, likewise; empty for none.
+        unit: of its number, where the end of its name (`_mm`, `_s`) does not say one.
+    """
+
+    title: str = ""
+    help: str = ""
+    unit: str = ""
+
+
 class Strict(BaseModel):
     """Base of everything that is read from YAML: frozen; unknown keys, NaN and infinity refused."""
 

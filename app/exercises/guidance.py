@@ -18,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 
-from app.core.configuration import Strict
+from app.core.configuration import Shown, Strict
 from app.core.messages import sentence, sentence_of
 from app.imaging.errors import ScanOrderError
 from app.imaging.scan_look import BreathPicture, NeedleEnds, ScanLook
@@ -61,13 +61,21 @@ class FadingPart(Strict):
             that tells where the needle is; 0 for none.
     """
 
-    kind: FadingKind
-    dials: Annotated[tuple[DialShare, ...], Field(max_length=MOST_DIALS)] = ()
-    least: DialShare = 0.0
-    step: Annotated[float, Field(gt=0.0, le=1.0)] = 0.2
-    good: Points = 80.0
-    poor: Points = 60.0
-    probe_every: Annotated[int, Field(ge=0, le=100)] = 0
+    kind: Annotated[FadingKind, Shown("Over the attempts")]
+    dials: Annotated[
+        tuple[DialShare, ...],
+        Field(max_length=MOST_DIALS),
+        Shown("Dials of the 1st, 2nd, … attempt"),
+    ] = ()
+    least: Annotated[DialShare, Shown("Dial never falls below")] = 0.0
+    step: Annotated[float, Field(gt=0.0, le=1.0), Shown("Step of the dial")] = 0.2
+    good: Annotated[Points, Shown("Good from a total of")] = 80.0
+    poor: Annotated[Points, Shown("Poor below a total of")] = 60.0
+    probe_every: Annotated[
+        int,
+        Field(ge=0, le=100),
+        Shown("Every so many attempts a probe without help; 0: none"),
+    ] = 0
 
     @model_validator(mode="after")
     def _goes_together(self) -> FadingPart:
@@ -212,10 +220,16 @@ class GuidancePart(Strict):
     """
 
     mode: GuidanceMode | None = None
-    slices: Annotated[int, Field(ge=FEWEST, le=MOST)] = FEWEST
-    slice_mm: Annotated[float, Field(ge=THINNEST_MM, le=THICKEST_MM)] = 5.0
-    streak: bool = False
-    dose_per_slice: Annotated[float, Field(ge=0.0, le=1e3)] = DOSE_PER_SLICE
+    slices: Annotated[int, Field(ge=FEWEST, le=MOST), Shown("Slices of a control scan")] = FEWEST
+    slice_mm: Annotated[
+        float, Field(ge=THINNEST_MM, le=THICKEST_MM), Shown("Thickness of a slice")
+    ] = 5.0
+    streak: Annotated[bool, Shown("Metal leaves a streak in control scans")] = False
+    dose_per_slice: Annotated[
+        float,
+        Field(ge=0.0, le=1e3),
+        Shown("Dose of a slice, a teaching estimate", unit="mGy·cm"),
+    ] = DOSE_PER_SLICE
     interval_mm: float | None = None
     needle_ends: NeedleEnds = NeedleEnds.PLAIN
     breath: BreathPicture = BreathPicture.WHOLE

@@ -18,7 +18,7 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError
 
-from app.core.configuration import Strict
+from app.core.configuration import Shown, Strict
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.imaging.remedies import is_word, words
@@ -262,8 +262,11 @@ class NeedlePart(Strict):
         tip: how it is ground; a bevel calls for the effect `bevel`.
     """
 
-    gauge: int = 18
-    length_mm: Annotated[float, Field(gt=0.0)] | None = None
+    gauge: Annotated[int, Shown("Needle")] = 18
+    length_mm: Annotated[
+        Annotated[float, Field(gt=0.0)] | None,
+        Shown("Length of the needle, 0 for the device's own"),
+    ] = None
     tip: TipShape = TipShape.SYMMETRIC
 
     @field_validator("gauge")

@@ -10299,10 +10299,6 @@ Anteil</translation>
             <translation type="unfinished">{rate:.0f} Bilder/s, Jitter {jitter:.1f} ms</translation>
         </message>
         <message>
-            <source> ms</source>
-            <translation type="unfinished"> ms</translation>
-        </message>
-        <message>
             <source>as the camera finds it, then held</source>
             <translation type="unfinished">wie die Kamera sie findet, dann gehalten</translation>
         </message>

@@ -10299,10 +10299,6 @@ part</translation>
             <translation type="unfinished">{rate:.0f} images/s, gigue {jitter:.1f} ms</translation>
         </message>
         <message>
-            <source> ms</source>
-            <translation type="unfinished"> ms</translation>
-        </message>
-        <message>
             <source>as the camera finds it, then held</source>
             <translation type="unfinished">celle que trouve la caméra, puis maintenue</translation>
         </message>

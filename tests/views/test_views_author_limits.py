@@ -2,7 +2,8 @@
 
 import pytest
 
-from app.views.author.editing import limits
+from app.exercises.schema import Exercise
+from app.views.kit.document import limits
 
 
 @pytest.mark.parametrize(
@@ -21,11 +22,11 @@ from app.views.author.editing import limits
     ],
 )
 def test_limits_and_defaults_are_the_models(where, expected):
-    found = limits(*where.split("."))
+    found = limits(Exercise, *where.split("."))
     assert found == expected
     assert [type(value) for value in found] == [type(value) for value in expected]
 
 
 def test_what_the_model_does_not_have_is_a_mistake():
     with pytest.raises(KeyError, match="stature"):
-        limits("needle", "stature")
+        limits(Exercise, "needle", "stature")

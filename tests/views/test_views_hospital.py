@@ -22,9 +22,9 @@ from app.session.people import People
 from app.session.roster import RosterLine
 from app.views.kit.access import ACCESS
 from app.views.kit.roles import Role
+from app.views.people.dialogs import EntryDialog
 from app.views.people.feature import PeopleFeature
 from app.views.people.hospital import WaitingDialog
-from app.views.people.pages import EntryDialog
 
 _ = german, rebuilding  # fixtures
 PASSWORD = "correct horse battery"

@@ -140,8 +140,8 @@ def test_without_a_configured_pacs_the_panel_leads_to_the_configuration(desk):
     panel.configure.click()
     dialog = desk.pacs.configuration
     dialog.add_button.click()
-    dialog.form.fields["host"].setText("127.0.0.1")
-    dialog.form.fields["title"].setText("FAKE")
+    dialog.form.fields["host",].setText("127.0.0.1")
+    dialog.form.fields["title",].setText("FAKE")
     dialog.buttons.button(QDialogButtonBox.StandardButton.Save).click()
     assert panel.search.isEnabled()
     assert "pacs  (FAKE, 127.0.0.1:104)" in panel.servers.currentText()

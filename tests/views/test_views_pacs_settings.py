@@ -60,7 +60,7 @@ def test_what_is_entered_is_kept_and_read_again(open_dialog):
 def test_a_name_is_taken_over_into_the_list_while_it_is_typed(open_dialog):
     dialog = open_dialog()
     dialog.add()
-    dialog.form.fields["name"].textEdited.emit("other")
+    dialog.form.fields["name",].textEdited.emit("other")
     assert dialog.list.currentItem().text() == "other"
     dialog.add()
     assert dialog.list.count() == 2
@@ -140,17 +140,17 @@ def test_an_archive_by_the_web_is_entered_kept_and_read_again(open_dialog):
     dialog = open_dialog()
     dialog.add()
     form = dialog.form
-    assert not form.web["url"].isEnabled()
+    assert not form.fields["web", "url"].isEnabled()
     form.retrieve.setCurrentIndex(form.retrieve.findData("web"))
-    assert form.web["url"].isEnabled()
-    assert not form.fields["host"].isEnabled()
-    form.fields["name"].setText("house")
-    form.web["url"].setText("http://pacs.example/dicom-web")
+    assert form.fields["web", "url"].isEnabled()
+    assert not form.fields["host",].isEnabled()
+    form.fields["name",].setText("house")
+    form.fields["web", "url"].setText("http://pacs.example/dicom-web")
     assert not dialog.save()
     assert "https" in dialog.note.text()
-    form.web["url"].setText(" https://pacs.example/dicom-web ")
-    form.web["user"].setText("acus")
-    form.web["password"].setText(" s3cret")
+    form.fields["web", "url"].setText(" https://pacs.example/dicom-web ")
+    form.fields["web", "user"].setText("acus")
+    form.fields["web", "password"].setText(" s3cret")
     assert dialog.save()
     (one,) = configured()
     assert (one.host, one.port, one.retrieve) == ("pacs.example", 443, "web")
@@ -163,7 +163,7 @@ def test_an_archive_by_the_web_is_entered_kept_and_read_again(open_dialog):
 def test_without_a_web_address_the_field_is_named(open_dialog):
     dialog = open_dialog()
     dialog.add()
-    dialog.form.fields["name"].setText("house")
+    dialog.form.fields["name",].setText("house")
     dialog.form.retrieve.setCurrentIndex(dialog.form.retrieve.findData("web"))
     assert not dialog.save()
     assert "web" in dialog.note.text()

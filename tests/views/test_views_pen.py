@@ -138,10 +138,10 @@ def test_what_is_chosen_is_read_and_what_cannot_be_is_refused(page):
 def test_the_net_is_written_and_a_size_that_fits_no_paper_is_said(page, tmp_path):
     page.choice.write(tmp_path / "pen.pdf")
     assert (tmp_path / "pen.pdf").read_bytes().startswith(b"%PDF")
-    assert "print it at 100 %" in page.choice.note.text()
+    assert "print it at 100 %" in page.choice.written.text()
     page.choice.edge.setValue(90.0)
     page.choice.write(tmp_path / "large.pdf")
-    assert "does not fit" in page.choice.note.text()
+    assert "does not fit" in page.choice.written.text()
 
 
 def test_size_and_lens_of_a_simulated_webcam_are_not_asked_for(page):

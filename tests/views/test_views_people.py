@@ -31,9 +31,10 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS, Known
+from app.views.people.board import GROUP_PDF, STUDENT_PDF, since_words
 from app.views.people.course_form import CourseDialog
+from app.views.people.dialogs import EntryDialog
 from app.views.people.feature import PeopleFeature
-from app.views.people.pages import GROUP_PDF, STUDENT_PDF, EntryDialog, since_words
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QPoint
 from PySide6.QtGui import Qt, QTextDocument
-from PySide6.QtWidgets import QApplication, QFormLayout, QLabel, QLineEdit, QToolTip, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QToolTip, QWidget
 
 import app
 from app.core.plugin_folders import folders
@@ -16,7 +16,8 @@ from app.imaging.series import Ignored, Listing
 from app.session.course import Course, CourseItem
 from app.session.people import People
 from app.session.roster import RosterLine
-from app.views.kit.parts import PlainLabel, add_row, message_box
+from app.views.kit.form import Form
+from app.views.kit.parts import PlainLabel, message_box
 from app.views.kit.text import literal
 from app.views.people.feature import PeopleFeature
 from app.views.series.browser import SeriesBrowser
@@ -85,7 +86,7 @@ def test_what_looks_for_markup_itself_is_given_literal_words():
         elif name == "QMessageBox" and file != "kit/parts.py":
             raw.append(f"{file}:{node.lineno} {name}: kit.parts.message_box makes one")
         elif name == "addRow" and isinstance(node.args[0], ast.Call | ast.JoinedStr):
-            raw.append(f"{file}:{node.lineno} {name}: kit.parts.add_row adds one")
+            raw.append(f"{file}:{node.lineno} {name}: kit.form.Form adds one")
     assert raw == []
 
 
@@ -191,9 +192,8 @@ def test_a_tip_shows_a_name_as_it_stands(application, settle):
 
 
 def test_a_title_of_a_form_leads_to_its_field(application):
-    page = QWidget()
-    form, line = QFormLayout(page), QLineEdit()
-    add_row(form, "&Pen <b>x</b>", line)
+    page, line = Form(), QLineEdit()
+    page.row("&Pen <b>x</b>", line)
     (title,) = page.findChildren(QLabel)
     assert (title.text(), title.buddy()) == ("&Pen <b>x</b>", line)
     assert title.textFormat() == Qt.TextFormat.PlainText

@@ -12,8 +12,8 @@ from app.session.backup_folder import backups_of, is_encrypted
 from app.session.people import People
 from app.session.roster import RosterLine
 from app.views.kit.access import ACCESS
+from app.views.people.dialogs import EntryDialog
 from app.views.people.feature import PeopleFeature
-from app.views.people.pages import EntryDialog
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from app.scoring.pass_mark import MarkMethod, SetMark
 from app.session.board import BoardCell
 from app.session.people_marks import with_mark
 from app.views.author.editing import ExerciseEditor
-from app.views.people.pages import cell_details, cell_words
+from app.views.people.board import cell_details, cell_words
 
 MARK = SetMark(method=MarkMethod.ANGOFF, points=66.0, standard_error=3.5, people=3, score_error=5.0)
 

@@ -8,7 +8,7 @@ import yaml
 from pydantic import Field, model_validator
 
 from app.core import paths
-from app.core.configuration import Strict, load
+from app.core.configuration import Shown, Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.core.messages import sentence
@@ -29,10 +29,12 @@ class TlsSettings(Strict):
         check_name: whether the PACS' certificate must name the host that we connect to.
     """
 
-    authority: str = ""
-    certificate: str = ""
-    key: str = ""
-    check_name: bool = True
+    authority: Annotated[str, Shown("Authority", "PEM; empty: those that the system trusts")] = ""
+    certificate: Annotated[str, Shown("Own certificate", "PEM; where the archive asks for one")] = (
+        ""
+    )
+    key: Annotated[str, Shown("Own key", "PEM without a password")] = ""
+    check_name: Annotated[bool, Shown("Its certificate must name the host")] = True
 
 
 class WebSettings(Strict):
@@ -44,9 +46,21 @@ class WebSettings(Strict):
         password: that goes with it; in no message, no list and no JSON.
     """
 
-    url: Annotated[str, Field(max_length=500)]
-    user: Annotated[str, Field(max_length=200)] = ""
-    password: Annotated[str, Field(max_length=500, repr=False)] = ""
+    url: Annotated[
+        str,
+        Field(max_length=500),
+        Shown("Web address", "https://…/dicom-web, before /studies"),
+    ]
+    user: Annotated[
+        str,
+        Field(max_length=200),
+        Shown("User", "name that the archive gave you; may stay empty"),
+    ] = ""
+    password: Annotated[
+        str,
+        Field(max_length=500, repr=False),
+        Shown("Password", "kept in a file that only you can read"),
+    ] = ""
 
     @model_validator(mode="after")
     def _can_be_asked(self) -> "WebSettings":
@@ -75,16 +89,28 @@ class PacsSettings(Strict):
         web: where and as whom with `web`; host, port and title follow from it if left out.
     """
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,32}$")]
-    host: Host
-    port: Port
-    title: Title
-    own_title: Title = "ACUS"
-    own_host: Annotated[str, Field(max_length=253)] = ""
-    own_port: Port = 11112
-    senders: Annotated[tuple[Host, ...], Field(max_length=32)] = ()
-    timeout_s: Annotated[float, Field(gt=0.0, le=600.0)] = 30.0
-    retrieve: Literal["get", "move", "web"] = "get"
+    name: Annotated[
+        str,
+        Field(pattern=r"^[A-Za-z0-9_.-]{1,32}$"),
+        Shown("Name", "what it is called here; no blanks"),
+    ]
+    host: Annotated[Host, Shown("Host", "name or address of the archive")]
+    port: Annotated[Port, Shown("Port")]
+    title: Annotated[Title, Shown("AE title", "the archive's, at most 16 characters")]
+    own_title: Annotated[Title, Shown("Own AE title", "tell the archive's administrator")] = "ACUS"
+    own_host: Annotated[
+        str,
+        Field(max_length=253),
+        Shown("Own address", "empty: the one that leads to the archive"),
+    ] = ""
+    own_port: Annotated[Port, Shown("Own port")] = 11112
+    senders: Annotated[
+        tuple[Host, ...],
+        Field(max_length=32),
+        Shown("Other senders", "empty: pictures come from the host alone"),
+    ] = ()
+    timeout_s: Annotated[float, Field(gt=0.0, le=600.0), Shown("Longest silence")] = 30.0
+    retrieve: Annotated[Literal["get", "move", "web"], Shown("Retrieve by")] = "get"
     tls: TlsSettings | None = None
     web: WebSettings | None = None
 

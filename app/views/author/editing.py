@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable, Collection, Mapping
 from copy import deepcopy
 from pathlib import Path
-from typing import Any, Final, get_args
+from typing import Any, Final
 
 from PySide6.QtCore import QObject, Signal
 
@@ -22,43 +22,17 @@ from app.imaging.volume import Volume
 from app.planning.draft import Edit
 from app.planning.history import UndoHistory
 from app.planning.patient import Patient
+from app.scoring import metrics
 from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.scoring.met import FORBIDDEN
+from app.views.kit.document import Document, Where, put_value, value_at
 from app.views.kit.text import tr
-
-Document = dict[str, Any]
-Where = tuple[str, ...]
-"""Names of fields, from the outside to the inside."""
 
 DRAWN: Final = "as-drawn-in-the-window.seg.nrrd"
 """Stands for the file of the structures until they are written."""
 
 Check = Callable[[Exercise], tuple[Mapping[str, str], tuple[tuple[str, str], ...]]]
 """Why each effect is simulated or not, and what cannot be used: (field, why)."""
-
-
-def limits(*where: str) -> tuple[Any, Any, Any]:
-    """Return smallest and largest value and default of a number, as the schema has them.
-
-    Where the schema has no largest one it is that of a box of whole numbers; what must be more than
-    a limit is a hundredth above it.
-
-    Args:
-        where: names of fields, from the outside to the inside.
-
-    Raises:
-        KeyError: if there is no such field.
-    """
-    model: Any = Exercise
-    low, high = None, 2**31 - 1
-    for name in where:
-        field = model.model_fields[name]
-        kinds = field.annotation, *get_args(field.annotation)
-        model = next((kind for kind in kinds if hasattr(kind, "model_fields")), None)
-    for rule in field.metadata:
-        low = rule.gt + 0.01 if hasattr(rule, "gt") else getattr(rule, "ge", low)
-        high = getattr(rule, "le", high)
-    return low, high, field.default
 
 
 class ExerciseEditor(QObject):
@@ -112,12 +86,7 @@ class ExerciseEditor(QObject):
 
     def get(self, *where: str, default: Any = None) -> Any:
         """Value of a field; `default` where nothing is said of it."""
-        value: Any = self.document
-        for name in where:
-            if not isinstance(value, Mapping) or name not in value:
-                return default
-            value = value[name]
-        return value
+        return value_at(self.document, *where, default=default)
 
     def problems_at(self, *where: str) -> list[FieldProblem]:
         """Return what is wrong with a field, or within it."""
@@ -144,7 +113,7 @@ class ExerciseEditor(QObject):
         """Set several fields as one step."""
         document = deepcopy(self.document)
         for where, value in values.items():
-            _set(document, where, value)
+            put_value(document, where, value)
         if ("rules", "pass_mark") in values:
             document["rules"].pop("mark", None)  # nobody but who types it has set this one
         if self.saved is None and ("title",) in values:
@@ -161,7 +130,7 @@ class ExerciseEditor(QObject):
     def learn(self, *where: str, value: Any) -> None:
         """Set a field that the program found out by itself: no step to undo."""
         document = deepcopy(self.document)
-        _set(document, where, value)
+        put_value(document, where, value)
         kept, self._history = self.document == self._kept, self._history.amend(document)
         if kept:
             self._kept = document
@@ -235,16 +204,30 @@ class ExerciseEditor(QObject):
         return self._checked[1]
 
 
-def _set(document: Document, where: Where, value: Any) -> None:
-    for name in where[:-1]:
-        inner = document.get(name)
-        if not isinstance(inner, dict):
-            inner = document[name] = {}
-        document = inner
-    if value is None:
-        document.pop(where[-1], None)
-    else:
-        document[where[-1]] = value
+def default_tolerance(metric: str) -> dict[str, Any]:
+    """Return bands to begin with for a metric that is to count."""
+    if metric in PUBLISHED_TOLERANCES:
+        found = PUBLISHED_TOLERANCES[metric].model_dump(mode="json", by_alias=True)
+        return {name: value for name, value in found.items() if value is not None}
+    own = {
+        "risk_breach": (0.0, 0.5, 1.0),
+        "control_scans": (3.0, 5.0, 8.0),
+        "notional_dose": (40.0, 60.0, 95.0),
+        "tracking_valid": (99.0, 95.0, 80.0),
+        "risk_distance": (10.0, 7.0, 5.0),
+        "plan_score": (75.0, 65.0, 50.0),
+        "plan_clearance": (10.0, 7.0, 5.0),
+        "planned_emphysema": (0.0, 5.0, 10.0),
+        "planned_fissures": (0.0, 0.5, 1.0),
+        "planned_intercostal": (6.0, 4.0, 2.7),
+        "planned_lung": (20.0, 30.0, 40.0),
+        "planned_pleural_angle": (10.0, 25.0, 40.0),
+        "planned_rib_border": (6.0, 4.0, 2.7),
+    }
+    higher = metrics.find(metric).higher_is_better
+    expert, good, passing = own.get(metric, (3.0, 2.0, 1.0) if higher else (1.0, 2.0, 3.0))
+    bands = {"expert": expert, "good": good, "pass": passing, "weight": 1.0}
+    return {**bands, "required": metric == "risk_breach"}
 
 
 def bone_words(depth_mm: float, length_mm: float) -> str:

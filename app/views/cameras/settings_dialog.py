@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import (
     QDialogButtonBox,
-    QDoubleSpinBox,
-    QFormLayout,
     QHBoxLayout,
     QPushButton,
     QVBoxLayout,
@@ -22,7 +20,8 @@ from app.tracking.cameras.source import SourceKind
 from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LiveCamera, LivePreview
 from app.views.kit import theme
-from app.views.kit.parts import PlainLabel, add_row
+from app.views.kit.form import Form
+from app.views.kit.parts import PlainLabel
 from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import tr, translated
 
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
     from app.views.shell.services import RobotPort, Services
 
 
-class SideEditor(QWidget):
+class SideEditor(Form):
     """Source, exposure and live picture of one camera.
 
     Signals:
@@ -43,33 +42,30 @@ class SideEditor(QWidget):
     def __init__(
         self, title: str, camera: OneCamera, sources: Sequence[RobotPort], parent: QWidget
     ) -> None:
-        super().__init__(parent)
-        self._camera = camera
-        self.source, self.exposure = SourceBox(sources, self), QDoubleSpinBox(self)
-        self.preview = LivePreview(self)
-        self.exposure.setRange(0.0, 500.0)
-        self.exposure.setDecimals(1)
-        self.exposure.setSuffix(tr(" ms"))
-        self.exposure.setSpecialValueText(tr("as the camera finds it, then held"))
-        self.show_camera(camera)
+        super().__init__(OneCamera, parent)
         heading = PlainLabel(title)
         heading.setStyleSheet("font-weight: 600;")
-        form = QFormLayout()
-        add_row(form, tr("Source"), self.source)
-        add_row(form, tr("Exposure"), self.exposure)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(heading)
-        column.addLayout(form)
-        column.addWidget(self.preview, 1)
+        self.rows.insertWidget(0, heading)
+        self.source = box = SourceBox(sources, self)
+        self.add(("source",), tr("Source"), box, box.show_source, box.source)
+        self.exposure = self.number(
+            "exposure_ms",
+            title=tr("Exposure"),
+            unit="ms",
+            within=(0.0, 500.0, 0.0),
+            decimals=1,
+            lowest=tr("as the camera finds it, then held"),
+        )
+        self.preview = LivePreview(self)
+        self.rows.addWidget(self.preview, 1)
+        self.show_camera(camera)
         self.source.currentTextChanged.connect(lambda _: self.changed.emit())
-        self.exposure.valueChanged.connect(lambda _: self.changed.emit())
+        self.edited.connect(lambda *_: self.changed.emit())
 
     def show_camera(self, camera: OneCamera) -> None:
         """Show a camera's settings."""
         self._camera = camera
-        self.source.show_source(camera.source)
-        self.exposure.setValue(camera.exposure_ms or 0.0)
+        self.show_values(dict(camera))
 
     def camera(self) -> OneCamera:
         """Return what is chosen; what was measured stays with the same source only.
@@ -77,9 +73,10 @@ class SideEditor(QWidget):
         Raises:
             CameraError: if the source cannot be read.
         """
-        source = self.source.source()
+        found = self.values()
+        source = found["source"]
         base = self._camera if source == self._camera.source else OneCamera(source=source)
-        return base.model_copy(update={"exposure_ms": self.exposure.value() or None})
+        return base.model_copy(update={"exposure_ms": found.get("exposure_ms")})
 
 
 QUIET_MS = 500
@@ -117,8 +114,21 @@ class CameraSettingsDialog(SettingsDialog):
             SideEditor(title, camera, sources, self)
             for title, camera in zip(titles, settings.cameras, strict=True)
         )
-        self.size_box, self.rate = SizeBox(settings.size, self), QDoubleSpinBox(self)
-        self.swap = QPushButton(tr("Exchange left and right"))
+        self.common = Form(CameraSettings, self)
+        with self.common.together(title=tr("Size")) as line:
+            self.size_box = SizeBox(settings.size, self)
+            line.addWidget(self.size_box)
+            line.addWidget(PlainLabel(tr("Pictures")))
+            self.rate = self.common.number(
+                "rate_hz",
+                title=tr("Pictures"),
+                unit=tr(" per second").strip(),
+                within=(1.0, 240.0, settings.rate_hz),
+                decimals=0,
+            )
+            line.addStretch(1)
+            self.swap = QPushButton(tr("Exchange left and right"))
+            line.addWidget(self.swap)
         self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
         self._quiet.timeout.connect(self.reopen)
         self._lay_out(not sources)
@@ -206,10 +216,6 @@ class CameraSettingsDialog(SettingsDialog):
         self._quiet.start()
 
     def _lay_out(self, empty: bool) -> None:
-        self.rate.setRange(1.0, 240.0)
-        self.rate.setDecimals(0)
-        self.rate.setSuffix(tr(" per second"))
-        self.rate.setValue(self._settings.rate_hz)
         words = tr(
             "Left and right are as seen from the side on which the cameras stand. Hold a hand "
             "before one camera: its picture must be the one below its name."
@@ -221,12 +227,6 @@ class CameraSettingsDialog(SettingsDialog):
             )
         explanation = PlainLabel(words)
         explanation.setWordWrap(True)
-        common = QHBoxLayout()
-        for title, widget in ((tr("Size"), self.size_box), (tr("Pictures"), self.rate)):
-            common.addWidget(PlainLabel(title))
-            common.addWidget(widget)
-        common.addStretch(1)
-        common.addWidget(self.swap)
         pair = QHBoxLayout()
         pair.setSpacing(theme.MARGIN)
         for side in self.sides:
@@ -234,11 +234,11 @@ class CameraSettingsDialog(SettingsDialog):
             side.changed.connect(self._quiet.start)
         self.swap.clicked.connect(lambda _=False: self._exchange())
         self.size_box.currentTextChanged.connect(lambda _: self._quiet.start())
-        self.rate.valueChanged.connect(lambda _: self._quiet.start())
+        self.common.edited.connect(lambda *_: self._quiet.start())
         column = QVBoxLayout(self)
         column.setSpacing(theme.MARGIN)
         column.addWidget(explanation)
-        column.addLayout(common)
+        column.addWidget(self.common)
         column.addLayout(pair, 1)
         column.addWidget(self.note)
         column.addWidget(self.buttons)

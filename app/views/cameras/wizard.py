@@ -9,15 +9,10 @@ from typing import Final
 from PySide6.QtCore import QStandardPaths, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
-    QComboBox,
-    QDoubleSpinBox,
     QFileDialog,
-    QGridLayout,
     QHBoxLayout,
-    QLabel,
     QMessageBox,
     QSizePolicy,
-    QSpinBox,
     QWidget,
 )
 
@@ -32,7 +27,7 @@ from app.views.cameras.board_page import paint_sheet, write_board
 from app.views.cameras.wizard_capture import CapturePage
 from app.views.cameras.wizard_result import ResultPage, WorldPage
 from app.views.cameras.wizard_save import SavePage
-from app.views.kit import theme
+from app.views.kit.form import Form
 from app.views.kit.parts import PlainLabel, button, column, label
 from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
@@ -98,15 +93,10 @@ class BoardPage(QWidget):
     def __init__(self, job: CalibrationJob, parent: QWidget) -> None:
         super().__init__(parent)
         self._job, self.valid = job, True
-        self.kind, self.dictionary, self.paper = QComboBox(), QComboBox(), QComboBox()
-        self.columns, self.rows = QSpinBox(), QSpinBox()
-        self.square, self.marker = QDoubleSpinBox(), QDoubleSpinBox()
-        self._titles: dict[str, QLabel] = {}
         self.state, self._spec = label(), label(role="dim")
         self.sheet = SheetView(self)
         self.print = button(tr("Save as PDF to print…"), "primary")
-        self._fill()
-        self._lay_out()
+        self._lay_out(self._make_form())
         self._show(job.board)
         self._connect()
         self._changed()
@@ -133,14 +123,10 @@ class BoardPage(QWidget):
 
     def _changed(self) -> None:
         charuco = self.kind.currentData() == BoardKind.CHARUCO  # Qt hands out a plain text
-        for widget in (
-            self.marker,
-            self.dictionary,
-            self._titles["marker"],
-            self._titles["dictionary"],
-        ):
-            widget.setVisible(charuco)
-        self._titles["counts"].setText(tr("Squares") if charuco else tr("Inner corners"))
+        for name in ("marker", "dictionary"):
+            self.form.show_row(charuco, name)
+        counts = tr("Squares") if charuco else tr("Inner corners")
+        self.form.names["columns",].setText(counts)
         try:
             board = self._board(charuco)
         except AcusError as error:
@@ -205,22 +191,31 @@ class BoardPage(QWidget):
             path = Path(answer)
             self.save(path if path.suffix else path.with_suffix(".pdf"))
 
-    def _fill(self) -> None:
-        self.kind.addItem(tr("ChArUco (recommended)"), BoardKind.CHARUCO)
-        self.kind.addItem(tr("Checkerboard"), BoardKind.CHECKERBOARD)
-        names = dictionary_names()
-        self.dictionary.addItems([*_COMMON, *(name for name in names if name not in _COMMON)])
+    def _make_form(self) -> Form:
+        self.form = form = Form(parent=self)
+        kinds = (
+            (BoardKind.CHARUCO, tr("ChArUco (recommended)")),
+            (BoardKind.CHECKERBOARD, tr("Checkerboard")),
+        )
+        self.kind = form.choice("kind", title=tr("Kind"), among=kinds)
+        counts = (3, 60, 3)
+        with form.together(title=tr("Squares")) as line:
+            self.columns = form.count("columns", within=counts)
+            line.addWidget(PlainLabel("×"))
+            self.rows = form.count("rows", within=counts)
+            line.addStretch(1)
+        side, marker = (0.5, 500.0, 20.0), (0.5, 500.0, 15.0)
+        self.square = form.number("square", title=tr("Side of a square"), unit="mm", within=side)
+        self.marker = form.number("marker", title=tr("Side of a marker"), unit="mm", within=marker)
+        names = (*_COMMON, *(name for name in dictionary_names() if name not in _COMMON))
+        among = [(name, name) for name in names]
+        self.dictionary = form.choice("dictionary", title=tr("Markers"), among=among)
         self.dictionary.setCurrentText("DICT_5X5_100")
-        self.paper.addItems(list(PAPERS))
-        for count in (self.columns, self.rows):
-            count.setRange(3, 60)
-        for length, default in ((self.square, 20.0), (self.marker, 15.0)):
-            length.setRange(0.5, 500.0)
-            length.setDecimals(2)
-            length.setSuffix(" mm")
-            length.setValue(default)
+        papers = [(name, name) for name in PAPERS]
+        self.paper = form.choice("paper", title=tr("Paper"), among=papers)
+        return form
 
-    def _lay_out(self) -> None:
+    def _lay_out(self, form: Form) -> None:
         rows = column(self, tr("Which board do you have?"))
         rows.addWidget(
             label(
@@ -240,30 +235,9 @@ class BoardPage(QWidget):
                 )
             )
         )
-        grid = QGridLayout()
-        grid.setVerticalSpacing(theme.SPACING)
-        counts = QWidget(self)
-        both = QHBoxLayout(counts)
-        both.setContentsMargins(0, 0, 0, 0)
-        for part in (self.columns, PlainLabel("×"), self.rows):
-            both.addWidget(part)
-        both.addStretch(1)
-        for row, (name, title, widget) in enumerate(
-            (
-                ("kind", tr("Kind"), self.kind),
-                ("counts", tr("Squares"), counts),
-                ("square", tr("Side of a square"), self.square),
-                ("marker", tr("Side of a marker"), self.marker),
-                ("dictionary", tr("Markers"), self.dictionary),
-                ("paper", tr("Paper"), self.paper),
-            )
-        ):
-            self._titles[name] = PlainLabel(title, self)
-            grid.addWidget(self._titles[name], row, 0)
-            grid.addWidget(widget, row, 1)
-        grid.setRowStretch(6, 1)
         beside = QHBoxLayout()
-        beside.addLayout(grid)
+        form.rows.addStretch(1)
+        beside.addWidget(form)
         beside.addWidget(self.sheet, 1)
         rows.addLayout(beside, 1)
         rows.addWidget(self.state)
@@ -273,10 +247,7 @@ class BoardPage(QWidget):
         rows.addLayout(last)
 
     def _connect(self) -> None:
-        for combo in (self.kind, self.dictionary, self.paper):
-            combo.currentIndexChanged.connect(self._changed)
-        for spin in (self.columns, self.rows, self.square, self.marker):
-            spin.valueChanged.connect(self._changed)
+        self.form.edited.connect(lambda *_: self._changed())
         self.print.clicked.connect(self._ask)
 
 

@@ -12,10 +12,8 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
-    QFormLayout,
     QHBoxLayout,
     QInputDialog,
-    QLineEdit,
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
@@ -30,7 +28,8 @@ from app.tracking.calibration.job import CalibrationJob
 from app.tracking.optics.calibration import StereoCalibration
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.parts import add_row, button, column, label, table
+from app.views.kit.form import Form
+from app.views.kit.parts import button, column, label, table
 from app.views.kit.text import listing, literal, tr, translated
 from app.views.kit.verdict import Verdict, tell
 
@@ -57,7 +56,6 @@ class ImportDialog(QDialog):
         self._history, self._names = history, names
         self.files: tuple[Path, ...] = ()
         self.chosen, self.state = label(role="dim"), label()
-        self.unit, self.size_box = QLineEdit(self), QLineEdit(self)
         self.open_files = button(tr("Files…"))
         self.open_folder = button(tr("Folder…"))
         self.take = button(tr("Import and use it"), "primary")
@@ -122,16 +120,16 @@ class ImportDialog(QDialog):
             self.set_files([Path(name)])
 
     def _lay_out(self) -> None:
-        self.unit.setPlaceholderText("1cm")
-        self.size_box.setPlaceholderText("1280x720")
-        form = QFormLayout()
+        form = Form(parent=self)
         row = QHBoxLayout()
         for one in (self.open_files, self.open_folder):
             row.addWidget(one)
         row.addWidget(self.chosen, 1)
-        form.addRow(row)
-        add_row(form, tr("Unit of the board's square (--unit)"), self.unit)
-        add_row(form, tr("Size of the pictures (--size)"), self.size_box)
+        form.wide(row)
+        title = tr("Unit of the board's square (--unit)")
+        self.unit = form.text("unit", title=title, hint="1cm")
+        title = tr("Size of the pictures (--size)")
+        self.size_box = form.text("size", title=title, hint="1280x720")
         last = QHBoxLayout()
         last.addStretch(1)
         close = button(tr("Cancel"))
@@ -151,7 +149,7 @@ class ImportDialog(QDialog):
                 )
             )
         )
-        column.addLayout(form)
+        column.addWidget(form)
         column.addWidget(self.state)
         column.addLayout(last)
         self.resize(560, 300)

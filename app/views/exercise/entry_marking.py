@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QLineF, QObject, QPointF, QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QLineF, QObject, QPointF, QSignalBlocker, Qt, Signal, SignalInstance
 from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
@@ -28,8 +28,9 @@ from app.planning.entry_mark import (
 from app.planning.patient import Patient
 from app.planning.plan import Plan
 from app.views.exercise.scan_view import FARTHEST_MM
+from app.views.kit.form import Form
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr, translated
+from app.views.kit.text import tr, translated
 from app.views.kit.theme import Mark
 from app.views.plan.editor import PlanEditor
 from app.views.slices.drawing import Drawing, Shape
@@ -49,7 +50,7 @@ SAME_MM = 1.5
 """An entry so near to the marked one is it: a mark is moved onto the skin next to it."""
 
 
-class EntryMarkPanel(QWidget):
+class EntryMarkPanel(Form):
     """Table, line and offset of the entry; hidden where the exercise has no grid.
 
     Signals:
@@ -63,16 +64,12 @@ class EntryMarkPanel(QWidget):
     dialled = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.table, self.offset = QDoubleSpinBox(self), QDoubleSpinBox(self)
-        self.line = QSpinBox(self)
-        self.mark = QPushButton(tr("Mark the entry"), self)
-        self.plane, self.head = QDoubleSpinBox(self), QDoubleSpinBox(self)
-        self.dial = QPushButton(tr("Point the needle"), self)
-        self.words = PlainLabel(self)
-        self._names, self._angle_names = list[PlainLabel](), list[PlainLabel]()
-        self._prepare()
-        self._lay_out()
+        super().__init__(parent=parent, spacing=4)
+        heading = PlainLabel(tr("Entry on the skin"), self)
+        heading.setProperty("role", "heading")
+        self.wide(heading)
+        self._add_place()
+        self._add_angles()
         self.set_locked(False)
         self.hide()
 
@@ -90,10 +87,12 @@ class EntryMarkPanel(QWidget):
 
     def set_locked(self, locked: bool) -> None:
         """Offer the mark before an attempt, the needle's angles in it; what is said stays."""
-        for widget in (*self._names, self.table, self.line, self.offset, self.mark):
-            widget.setVisible(not locked)
-        for widget in (*self._angle_names, self.plane, self.head, self.dial):
-            widget.setVisible(locked)
+        for name in ("table", "line", "offset"):
+            self.show_row(not locked, name)
+        for name in ("plane", "head"):
+            self.show_row(locked, name)
+        self.mark.setVisible(not locked)
+        self.dial.setVisible(locked)
 
     @property
     def angles(self) -> NeedleAngles:
@@ -109,80 +108,53 @@ class EntryMarkPanel(QWidget):
         """Return the place that is set."""
         return GridPlace(self.table.value(), self.line.value(), self.offset.value())
 
-    def _prepare(self) -> None:
-        for widget, name, help_text in (
-            (self.table, tr("Table"), tr("Table position at which the laser meets the entry (z)")),
-            (
-                self.line,
-                tr("Grid line"),
-                tr("From the patient's right; each fifth is thick"),
-            ),
-            (self.offset, tr("Beside it"), tr("Along the skin, + towards the next number")),
-        ):
-            widget.setAccessibleName(name)
-            widget.setToolTip(literal(help_text))
-            widget.setFocusPolicy(Qt.FocusPolicy.StrongFocus)  # no wheel by chance
+    def _add_place(self) -> None:
+        far = (-FARTHEST_MM, FARTHEST_MM, 0.0)
+        self.table = self.number("table", title=tr("Table"), unit="mm", within=far, decimals=1)
+        self.table.setToolTip(tr("Table position at which the laser meets the entry (z)"))
+        self.line = self.count("line", title=tr("Grid line"), within=(0, 99, 0))
+        self.line.setToolTip(tr("From the patient's right; each fifth is thick"))
+        within = (0.0, 99.0, 0.0)
+        self.offset = self.number(
+            "offset", title=tr("Beside it"), unit="mm", within=within, decimals=1
+        )
+        self.offset.setToolTip(tr("Along the skin, + towards the next number"))
+        for widget in (self.table, self.line, self.offset):
             widget.valueChanged.connect(lambda _: self.moved.emit())
-        for field in (self.table, self.offset):
-            field.setDecimals(1)
-            field.setSuffix(tr(" mm"))
-        self.table.setRange(-FARTHEST_MM, FARTHEST_MM)
+        self.mark = self._button(tr("Mark the entry"), self.wanted)
         self.mark.setToolTip(
             tr(
                 "Makes this place the entry: the patient is placed so that it lies on the fulcrum; "
                 "how far it is from the entry that you planned is scored"
             )
         )
-        self.mark.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.mark.clicked.connect(self.wanted)
-        for field, name, help_text in (
-            (self.plane, tr("In the slice"), tr("From straight down, + towards higher numbers")),
-            (self.head, tr("Out of it"), tr("Cranio-caudal: + towards the head")),
-        ):
-            field.setRange(-80.0, 80.0)
-            field.setDecimals(1)
-            field.setSuffix(tr("°"))
-            field.setAccessibleName(name)
-            field.setToolTip(literal(help_text))
-            field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.words = PlainLabel(self)
+        self.words.setWordWrap(True)
+        self.wide(self.words)
+
+    def _add_angles(self) -> None:
+        title, within = tr("In the slice"), (-80.0, 80.0, 0.0)
+        self.plane = self.number("plane", title=title, unit="°", within=within, decimals=1)
+        self.plane.setToolTip(tr("From straight down, + towards higher numbers"))
+        title = tr("Out of it")
+        self.head = self.number("head", title=title, unit="°", within=within, decimals=1)
+        self.head.setToolTip(tr("Cranio-caudal: + towards the head"))
+        self.dial = self._button(tr("Point the needle"), self.dialled)
         self.dial.setToolTip(
             tr(
                 "Lets the simulated hand point the needle by these two angles, as by a protractor; "
                 "a needle in your own hand you turn yourself"
             )
         )
-        self.dial.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.dial.clicked.connect(self.dialled)
-        self.words.setWordWrap(True)
+        for field in self.fields.values():
+            field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)  # no wheel by chance
 
-    def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setVerticalSpacing(4)
-        title = PlainLabel(tr("Entry on the skin"), self)
-        title.setProperty("role", "heading")
-        grid.addWidget(title, 0, 0, 1, 2)
-        for row, (name, widget) in enumerate(
-            (
-                (tr("Table"), self.table),
-                (tr("Grid line"), self.line),
-                (tr("Beside it"), self.offset),
-            ),
-            1,
-        ):
-            self._names.append(PlainLabel(name, self))
-            grid.addWidget(self._names[-1], row, 0)
-            grid.addWidget(widget, row, 1)
-        grid.addWidget(self.mark, 4, 0, 1, 2)
-        grid.addWidget(self.words, 5, 0, 1, 2)
-        for row, (name, widget) in enumerate(
-            ((tr("In the slice"), self.plane), (tr("Out of it"), self.head)), 6
-        ):
-            self._angle_names.append(PlainLabel(name, self))
-            grid.addWidget(self._angle_names[-1], row, 0)
-            grid.addWidget(widget, row, 1)
-        grid.addWidget(self.dial, 8, 0, 1, 2)
-        grid.setColumnStretch(1, 1)
+    def _button(self, text: str, wanted: SignalInstance) -> QPushButton:
+        button = QPushButton(text, self)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        button.clicked.connect(wanted)
+        self.wide(button)
+        return button
 
 
 class EntryMarking(QObject):

@@ -41,7 +41,7 @@ from app.views.exercise.stages import Steps
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.lines import PseudonymLine
-from app.views.kit.parts import FittingButton, PlainLabel, add_row
+from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.text import literal, tr, translated
 
 
@@ -679,8 +679,10 @@ class ExercisePanel(QWidget):
         self._form = form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
-        add_row(form, tr("Exercise"), self.exercise)
-        add_row(form, tr("Student"), self.student)
+        for title, field in ((tr("Exercise"), self.exercise), (tr("Student"), self.student)):
+            name = PlainLabel(title)
+            name.setBuddy(field)
+            form.addRow(name, field)
         form.addRow(self._dial_title, self.assistance)
         self._column = column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)

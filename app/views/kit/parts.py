@@ -9,10 +9,8 @@ from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QFormLayout,
     QHeaderView,
     QLabel,
-    QLayout,
     QMessageBox,
     QProgressBar,
     QPushButton,
@@ -106,20 +104,6 @@ def label(text: str = "", role: str = "") -> PlainLabel:
     if role:
         made.setProperty("role", role)
     return made
-
-
-def add_row(form: QFormLayout, title: str, field: QWidget | QLayout) -> None:
-    """Add a row to a form; its title, which may have a `&`, leads to the field."""
-    named = PlainLabel(title)
-    if isinstance(field, QWidget):
-        named.setBuddy(field)
-    else:  # a screen reader calls each of several by the row's name
-        for place in range(field.count()):
-            item = field.itemAt(place)
-            part = None if item is None else item.widget()
-            if part is not None and not part.accessibleName() and not isinstance(part, QLabel):
-                part.setAccessibleName(title)
-    form.addRow(named, field)
 
 
 def message_box(parent: QWidget | None, title: str, words: str, more: str = "") -> QMessageBox:

@@ -15,10 +15,8 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
     QDialog,
-    QFormLayout,
     QHBoxLayout,
     QHeaderView,
-    QLineEdit,
     QPushButton,
     QTreeWidget,
     QTreeWidgetItem,
@@ -32,8 +30,9 @@ from app.core.messages import sentence
 from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.form import Form
 from app.views.kit.names import NAMES
-from app.views.kit.parts import PlainLabel, add_row, size_dialog
+from app.views.kit.parts import PlainLabel, button, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import day, tr, translated
 
@@ -63,13 +62,9 @@ class PacsPanel(QDialog):
         self._task: BackgroundTask | None = None
         self.strip = ProgressStrip(self)  # its own: the window's cannot be clicked meanwhile
         self.servers, self.note = QComboBox(self), PlainLabel(self)
-        self.patient, self.name = QLineEdit(self), QLineEdit(self)
-        self.date = QLineEdit(self)
-        if NAMES.are_hidden:
-            for field in (self.patient, self.name):
-                field.setEchoMode(QLineEdit.EchoMode.Password)
+        self.configure = button(tr("Configure…"))
+        self.form = self._make_form()
         self.search = QPushButton(tr("Search"), self)
-        self.configure = QPushButton(tr("Configure…"), self)
         self.take = QPushButton(tr("Take into the library, de-identified"), self)
         self.tree = self._make_tree()
         self._lay_out()
@@ -123,23 +118,20 @@ class PacsPanel(QDialog):
         tree.itemDoubleClicked.connect(lambda *_: self._want())
         return tree
 
+    def _make_form(self) -> Form:
+        form, hidden = Form(parent=self), NAMES.are_hidden
+        with form.together(title=tr("PACS")) as line:
+            line.addWidget(self.servers, 1)
+            line.addWidget(self.configure)
+        hint = tr("* and ? stand for unknown characters")
+        self.patient = form.text("patient", title=tr("Patient ID"), hint=hint, secret=hidden)
+        hint = tr("Family, Given; * and ? stand for unknown characters")
+        self.name = form.text("name", title=tr("Name"), hint=hint, secret=hidden)
+        hint = tr("{day}, or two days with a dash", day=day(date(2024, 2, 1)))
+        self.date = form.text("date", title=tr("Date of the study"), hint=hint)
+        return form
+
     def _lay_out(self) -> None:
-        self.patient.setPlaceholderText(tr("* and ? stand for unknown characters"))
-        self.name.setPlaceholderText(tr("Family, Given; * and ? stand for unknown characters"))
-        written = day(date(2024, 2, 1))
-        self.date.setPlaceholderText(tr("{day}, or two days with a dash", day=written))
-        server = QHBoxLayout()
-        server.addWidget(self.servers, 1)
-        server.addWidget(self.configure)
-        self.configure.setAutoDefault(False)
-        form = QFormLayout()
-        add_row(form, tr("PACS"), server)
-        for title, field in (
-            (tr("Patient ID"), self.patient),
-            (tr("Name"), self.name),
-            (tr("Date of the study"), self.date),
-        ):
-            add_row(form, title, field)
         private = PlainLabel(tr("Names are shown here only; nothing of them is stored."), self)
         for label in (self.note, private):
             label.setProperty("role", "dim")
@@ -152,7 +144,7 @@ class PacsPanel(QDialog):
         self.take.setAutoDefault(False)
         column = QVBoxLayout(self)
         column.setSpacing(theme.SPACING)
-        column.addLayout(form)
+        column.addWidget(self.form)
         column.addWidget(self.note)
         column.addWidget(self.tree, 1)
         column.addWidget(self.strip)

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QDialogButtonBox,
-    QDoubleSpinBox,
     QFileDialog,
-    QFormLayout,
     QHBoxLayout,
     QLineEdit,
     QListWidget,
     QMessageBox,
     QPushButton,
-    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
@@ -29,191 +25,101 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.parts import PlainLabel, add_row
+from app.views.kit.document import Document, Where
+from app.views.kit.form import Form
+from app.views.kit.parts import button, label
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import literal, tr, translated
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict
 
 if TYPE_CHECKING:
     from app.imaging.pacs.settings import PacsSettings
 
 
-Values = dict[str, object]
-_FILES = ("authority", "certificate", "key")
-_DEFAULTS: Values = {
-    "name": "",
-    "host": "",
-    "port": 104,
-    "title": "",
-    "own_title": "ACUS",
-    "own_host": "",
-    "own_port": 11112,
-    "senders": (),
-    "timeout_s": 30.0,
-    "retrieve": "get",
-}
-
-
-_TEXTS = ("name", "host", "title", "own_title", "own_host")
-_WEB = ("url", "user", "password")
-
-
-class PacsForm(QWidget):
-    """Edits the settings of one PACS as text; whether they can be used is judged elsewhere.
-
-    Attributes:
-        fields: lines of text by the names of the settings.
-    """
+class PacsForm(Form):
+    """Edits the settings of one PACS; whether they can be used is judged elsewhere."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.fields = {name: QLineEdit(self) for name in _TEXTS}
-        self.senders = QLineEdit(self)
-        self.port, self.own_port = _port(self), _port(self)
-        self.timeout, self.retrieve = QDoubleSpinBox(self), QComboBox(self)
-        self.timeout.setRange(1.0, 600.0)
-        self.timeout.setDecimals(0)
-        self.timeout.setSuffix(" s")
-        self.retrieve.addItem(tr("C-GET: over the same connection"), "get")
-        self.retrieve.addItem(tr("C-MOVE: it connects to us"), "move")
-        self.retrieve.addItem(tr("DICOMweb: by https"), "web")
-        self.web = {name: QLineEdit(self) for name in _WEB}
-        self.web["password"].setEchoMode(QLineEdit.EchoMode.Password)
-        self.tls = QCheckBox(tr("Encrypted connection (TLS)"), self)
-        self.files = {name: QLineEdit(self) for name in _FILES}
-        self.check_name = QCheckBox(tr("Its certificate must name the host"), self)
-        self._rows: list[QWidget] = []
-        self._lay_out()
-        self.tls.toggled.connect(self._enable)
-        self.retrieve.currentIndexChanged.connect(lambda _: self._enable())
+        from app.imaging.pacs.settings import PacsSettings
 
-    def complete(self, given: Mapping[str, object]) -> Values:
-        """Return settings with the defaults of what they leave out, as `values` gives them."""
-        self.show_values(given)
-        return self.values()
-
-    def show_values(self, given: Mapping[str, object]) -> None:
-        """Show settings; what they leave out gets its default."""
-        values = _DEFAULTS | dict(given)
-        for name, field in self.fields.items():
-            field.setText(str(values[name]))
-        senders = values["senders"]
-        self.senders.setText(
-            ", ".join(map(str, senders if isinstance(senders, list | tuple) else ()))
+        super().__init__(PacsSettings, parent)
+        self._choosers: list[QPushButton] = []
+        for name in ("name", "host"):
+            self.text(name, read=str.strip)
+        self.count("port", within=(1, 65535, 104))
+        for name in ("title", "own_title"):
+            self.text(name, read=str.strip)
+        ways = (
+            ("get", tr("C-GET: over the same connection")),
+            ("move", tr("C-MOVE: it connects to us")),
+            ("web", tr("DICOMweb: by https")),
         )
-        self.port.setValue(int(str(values["port"])))
-        self.own_port.setValue(int(str(values["own_port"])))
-        self.timeout.setValue(float(str(values["timeout_s"])))
-        self.retrieve.setCurrentIndex(self.retrieve.findData(values["retrieve"]))
-        web = values.get("web")
-        for name, field in self.web.items():
-            field.setText(str(web.get(name, "")) if isinstance(web, Mapping) else "")
-        tls = values.get("tls")
-        self.tls.setChecked(isinstance(tls, Mapping))
-        tls = tls if isinstance(tls, Mapping) else {}
-        for name, field in self.files.items():
-            field.setText(str(tls.get(name, "")))
-        self.check_name.setChecked(bool(tls.get("check_name", True)))
-        self._enable()
-
-    def values(self) -> Values:
-        """Return the settings as they would stand in the file."""
-        values: Values = {name: field.text().strip() for name, field in self.fields.items()}
-        values |= {
-            "port": self.port.value(),
-            "own_port": self.own_port.value(),
-            "senders": tuple(self.senders.text().replace(",", " ").split()),
-            "timeout_s": self.timeout.value(),
-            "retrieve": self.retrieve.currentData(),
-        }
-        by_web = values["retrieve"] == "web"
-        if by_web:  # the address says them
-            for name in ("host", "port", "title"):
-                del values[name]
-        if by_web or any(field.text().strip() for field in self.web.values()):
-            values["web"] = {
-                name: field.text() if name == "password" else field.text().strip()
-                for name, field in self.web.items()
-            }
-        if self.tls.isChecked():
-            files = {name: field.text().strip() for name, field in self.files.items()}
-            values["tls"] = {**files, "check_name": self.check_name.isChecked()}
-        return values
-
-    def _enable(self) -> None:
-        moves, by_web = (self.retrieve.currentData() == way for way in ("move", "web"))
-        for field in (self.fields["host"], self.fields["title"], self.fields["own_title"]):
-            field.setEnabled(not by_web)
-        self.port.setEnabled(not by_web)
-        for field in self.web.values():
-            field.setEnabled(by_web)
-        self.fields["own_host"].setEnabled(moves)
-        self.senders.setEnabled(moves)
-        self.own_port.setEnabled(moves)
-        for widget in self._rows:
-            widget.setEnabled(self.tls.isChecked())
-
-    def _lay_out(self) -> None:
-        form = QFormLayout()
-        form.setHorizontalSpacing(theme.MARGIN)
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        fields = self.fields
-        for title, widget, hint in (
-            (tr("Name"), fields["name"], tr("what it is called here; no blanks")),
-            (tr("Host"), fields["host"], tr("name or address of the archive")),
-            (tr("Port"), self.port, ""),
-            (tr("AE title"), fields["title"], tr("the archive's, at most 16 characters")),
-            (tr("Own AE title"), fields["own_title"], tr("tell the archive's administrator")),
-            (tr("Retrieve by"), self.retrieve, ""),
-            (tr("Web address"), self.web["url"], tr("https://…/dicom-web, before /studies")),
-            (tr("User"), self.web["user"], tr("name that the archive gave you; may stay empty")),
-            (tr("Password"), self.web["password"], tr("kept in a file that only you can read")),
-            (tr("Own address"), fields["own_host"], tr("empty: the one that leads to the archive")),
-            (tr("Own port"), self.own_port, ""),
-            (tr("Other senders"), self.senders, tr("empty: pictures come from the host alone")),
-            (tr("Longest silence"), self.timeout, ""),
-        ):
-            if isinstance(widget, QLineEdit):
-                widget.setPlaceholderText(hint)
-                widget.setToolTip(literal(hint))
-            add_row(form, title, widget)
-        form.addRow(self.tls)
-        for title, name, hint in (
-            (tr("Authority"), "authority", tr("PEM; empty: those that the system trusts")),
-            (tr("Own certificate"), "certificate", tr("PEM; where the archive asks for one")),
-            (tr("Own key"), "key", tr("PEM without a password")),
-        ):
-            self.files[name].setPlaceholderText(hint)
-            self._rows.append(self._file(self.files[name]))
-            add_row(form, title, self._rows[-1])
-        form.addRow("", self.check_name)
-        self._rows.append(self.check_name)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(form)
-        note = PlainLabel(
+        self.retrieve = self.choice("retrieve", among=ways)
+        for name in ("url", "user"):
+            self.text("web", name, read=str.strip)
+        self.text("web", "password", secret=True)
+        self.text("own_host", read=str.strip)
+        self.count("own_port")
+        self.text("senders", read=_senders, write=", ".join)
+        self.number("timeout_s", within=(1.0, 600.0, 30.0), decimals=0)
+        self.tls = QCheckBox(tr("Encrypted connection (TLS)"), self)
+        self.wide(self.tls)
+        for name in ("authority", "certificate", "key"):
+            self._file(name)
+        self.check("tls", "check_name", indented=True)
+        note = label(
             tr(
                 "Own address and port are where C-MOVE's pictures come; the port is open only "
                 "while a retrieval lasts."
             ),
-            self,
+            "dim",
         )
-        note.setProperty("role", "dim")
-        note.setWordWrap(True)
-        column.addWidget(note)
-        column.addStretch()
+        self.rows.addWidget(note)
+        self.rows.addStretch()
+        self.tls.toggled.connect(self._enable)
+        self.edited.connect(lambda *_: self._enable())
 
-    def _file(self, field: QLineEdit) -> QWidget:
-        holder = QWidget(self)
-        row = QHBoxLayout(holder)
-        row.setContentsMargins(0, 0, 0, 0)
-        button = QPushButton(tr("Choose…"), holder)
-        button.setAutoDefault(False)
-        button.clicked.connect(lambda: self._choose(field))
-        row.addWidget(field, 1)
-        row.addWidget(button)
-        return holder
+    def complete(self, given: Mapping[str, Any]) -> Document:
+        """Return settings with the defaults of what they leave out, as `values` gives them."""
+        self.show_values(given)
+        return self.values()
+
+    def show_values(self, document: Mapping[str, Any]) -> None:
+        """Show settings; what they leave out gets its default."""
+        super().show_values(document)
+        self.tls.setChecked(isinstance(document.get("tls"), Mapping))
+        self._enable()
+
+    def values(self) -> Document:
+        """Return the settings as they would stand in the file."""
+        values = super().values()
+        if values["retrieve"] == "web":  # the address says them
+            for name in ("host", "port", "title"):
+                del values[name]
+        elif not any(text.strip() for text in values["web"].values()):
+            del values["web"]
+        if not self.tls.isChecked():
+            del values["tls"]
+        return values
+
+    def _enable(self) -> None:
+        moves, by_web = (self.retrieve.currentData() == way for way in ("move", "web"))
+        may = dict.fromkeys(("host", "title", "own_title", "port"), not by_web)
+        may |= dict.fromkeys(("own_host", "senders", "own_port"), moves)
+        may |= {"web": by_web, "tls": self.tls.isChecked()}
+        for where, field in self.fields.items():
+            field.setEnabled(may.get(where[0], True))
+        for chooser in self._choosers:
+            chooser.setEnabled(may["tls"])
+
+    def _file(self, name: str) -> None:
+        with self.together("tls", name) as line:
+            field = self.text("tls", name, read=str.strip)
+            chooser = button(tr("Choose…"))
+            chooser.clicked.connect(lambda: self._choose(field))
+            line.addWidget(chooser)
+        self._choosers.append(chooser)
 
     def _choose(self, field: QLineEdit) -> None:
         kinds = f"{tr('Certificates')} (*.pem *.crt *.cer *.key);;{tr('All')} (*)"
@@ -222,10 +128,8 @@ class PacsForm(QWidget):
             field.setText(name)
 
 
-def _port(parent: QWidget) -> QSpinBox:
-    box = QSpinBox(parent)
-    box.setRange(1, 65535)
-    return box
+def _senders(text: str) -> tuple[str, ...]:
+    return tuple(text.replace(",", " ").split())
 
 
 class PacsSettingsDialog(SettingsDialog):
@@ -260,7 +164,7 @@ class PacsSettingsDialog(SettingsDialog):
         names = (f"pacs{n}" if n > 1 else "pacs" for n in range(1, len(taken) + 2))
         self._forms.append({"name": next(n for n in names if n not in taken), "port": 104})
         self._show_list(len(self._forms) - 1)
-        self.form.fields["name"].setFocus()
+        self.form.fields["name",].setFocus()
 
     def remove(self) -> None:
         """Take the chosen PACS off the list; Save makes it last."""
@@ -372,9 +276,9 @@ class PacsSettingsDialog(SettingsDialog):
             self._forms[self._shown] = self.form.values()
             self._show_list(row)
 
-    def _renamed(self, name: str) -> None:
+    def _renamed(self, where: Where, name: Any) -> None:
         item = self.list.currentItem()
-        if item is not None:
+        if item is not None and where == ("name",):
             item.setText(name)
 
     def _enable(self) -> None:
@@ -391,14 +295,14 @@ class PacsSettingsDialog(SettingsDialog):
 
     def _connect(self) -> None:
         self.list.currentRowChanged.connect(self._choose)
-        self.form.fields["name"].textEdited.connect(self._renamed)
-        for button, command in (
+        self.form.edited.connect(lambda where, value, _: self._renamed(where, value))
+        for one, command in (
             (self.add_button, self.add),
             (self.remove_button, self.remove),
             (self.test_button, self.test),
         ):
-            button.setAutoDefault(False)
-            button.clicked.connect(lambda _=False, command=command: command())
+            one.setAutoDefault(False)
+            one.clicked.connect(lambda _=False, command=command: command())
         self.finished.connect(lambda _: self._stop())
 
     def _lay_out(self) -> None:

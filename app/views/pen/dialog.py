@@ -9,13 +9,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, cast
 
-from PySide6.QtCore import QStandardPaths, QTimer, Signal
+from PySide6.QtCore import QSignalBlocker, QStandardPaths, QTimer, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
-    QDoubleSpinBox,
     QFileDialog,
-    QFormLayout,
     QGroupBox,
     QHBoxLayout,
     QMessageBox,
@@ -31,7 +29,9 @@ from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LivePreview
 from app.views.cameras.settings_dialog import QUIET_MS
 from app.views.kit import theme
-from app.views.kit.parts import PlainLabel, add_row, button, label, message_box, size_dialog
+from app.views.kit.document import Where
+from app.views.kit.form import Form
+from app.views.kit.parts import button, label, message_box, size_dialog
 from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.pen.net_page import write_pen
@@ -142,7 +142,7 @@ def _cameras(file: Path) -> tuple[str, ...]:
     return tuple(str(one["name"]) for one in found if isinstance(one, dict) and "name" in one)
 
 
-class PenChoice(QWidget):
+class PenChoice(Form):
     """Pen, size, webcam, lens.
 
     Args:
@@ -159,14 +159,21 @@ class PenChoice(QWidget):
     def __init__(
         self, settings: PenSettings, sources: Sequence[RobotPort], parent: QWidget | None = None
     ) -> None:
-        super().__init__(parent)
+        super().__init__(PenSettings, parent, spacing=theme.SPACING)
         self._settings = settings
-        self.body, self.edge = QComboBox(self), QDoubleSpinBox(self)
-        self.source, self.size_box = SourceBox(sources, self), SizeBox(settings.size, self)
-        self.lens, self.paper = LensBox(settings, self), QComboBox(self)
-        self.print, self.note = button(tr("Save as PDF to print…")), label(role="dim")
-        self._fill(settings)
-        self._lay_out()
+        self._add_pen(settings)
+        self.source = SourceBox(sources, self)
+        self.source.show_source(settings.source)
+        self.row(tr("&Webcam"), self.source)
+        self.size_box = SizeBox(settings.size, self)
+        self.size_box.setToolTip(tr("Width and height of the webcam's pictures"))
+        self.row(tr("Pictures"), self.size_box)
+        self.lens = LensBox(settings, self)
+        self.row(tr("&Lens"), self.lens)
+        self._add_print()
+        self.written = label(role="dim")
+        self.written.hide()
+        self.rows.addWidget(self.written)
         self._connect()
         self._enable()
 
@@ -192,17 +199,17 @@ class PenChoice(QWidget):
 
     def write(self, path: Path) -> None:
         """Write the net as a PDF; what is wrong is shown."""
-        self.note.show()
+        self.written.show()
         try:
             chosen = self.settings()
             pen = load_pen(chosen.pen)
             pen = pen if chosen.edge_mm is None else pen.resized(chosen.edge_mm)
             write_pen(path, pen, PAPERS[self.paper.currentText()])
         except AcusError as error:
-            tell(self.note, Verdict.BAD, translated(error))
+            tell(self.written, Verdict.BAD, translated(error))
             return
         tell(
-            self.note,
+            self.written,
             Verdict.GOOD,
             tr(
                 "written to {file}: print it at 100 %, check the line of 100 mm, cut, fold, glue",
@@ -227,65 +234,45 @@ class PenChoice(QWidget):
         self.size_box.setEnabled(not simulated)
         self.lens.set_simulated(simulated)
 
-    def _take_body(self) -> None:
-        """Another pen: its own size."""
-        self.edge.blockSignals(True)
-        self.edge.setValue(load_pen(str(self.body.currentData())).body.edge_mm)
-        self.edge.blockSignals(False)
-        self.changed.emit()
+    def _take(self, where: Where) -> None:
+        """Another pen: its own size; another paper is no other pen."""
+        if where == ("pen",):
+            with QSignalBlocker(self):
+                self.edge.setValue(load_pen(str(self.body.currentData())).body.edge_mm)
+        if where != ("paper",):
+            self.changed.emit()
 
-    def _fill(self, settings: PenSettings) -> None:
-        names = shipped_pens()
-        for name in [*names, *([] if settings.pen in names else [settings.pen])]:
-            self.body.addItem(Path(name).stem.capitalize(), name)
-        self.body.setCurrentIndex(self.body.findData(settings.pen))
+    def _add_pen(self, settings: PenSettings) -> None:
+        names, usual = shipped_pens(), load_pen(settings.pen).body.edge_mm
+        with self.together(title=tr("&Pen")) as line:
+            among = [(name, name.capitalize()) for name in names]
+            self.body = self.choice("pen", title=tr("&Pen"), among=among)
+            self.edge = self.number("edge_mm", within=(10.0, 100.0, usual), decimals=1)
+            line.setStretch(1, 1)
+        if settings.pen not in names:
+            self.body.addItem(Path(settings.pen).stem.capitalize(), settings.pen)
         self.body.setToolTip(
             tr("Cube: five faces, also seen from above. Ring: six faces round the shaft")
         )
-        self.edge.setRange(10.0, 100.0)
-        self.edge.setDecimals(1)
-        self.edge.setSuffix(" mm")
         self.edge.setToolTip(tr("Edge of a face. Larger is more accurate, and heavier"))
-        usual = load_pen(settings.pen).body.edge_mm
-        self.edge.setValue(usual if settings.edge_mm is None else settings.edge_mm)
-        self.source.show_source(settings.source)
-        self.size_box.setToolTip(tr("Width and height of the webcam's pictures"))
-        self.paper.addItems(list(PAPERS))
+        self.show_values(dict(settings))
+
+    def _add_print(self) -> None:
+        with self.together(title=tr("Print")) as line:
+            papers = [(name, name) for name in PAPERS]
+            self.paper = self.choice("paper", title=tr("Print"), among=papers)
+            self.print = button(tr("Save as PDF to print…"))
+            line.addWidget(self.print, 1)
         self.paper.setToolTip(tr("Paper of the printer"))
         self.print.setToolTip(tr("The net of the pen and the sheet for the table, at true size"))
 
-    def _lay_out(self) -> None:
-        form = QFormLayout()
-        form.setVerticalSpacing(theme.SPACING)
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        named = PlainLabel(tr("&Pen"))
-        named.setBuddy(self.body)
-        form.addRow(named, _beside(self.body, self.edge))
-        add_row(form, tr("&Webcam"), self.source)
-        add_row(form, tr("Pictures"), self.size_box)
-        add_row(form, tr("&Lens"), self.lens)
-        add_row(form, tr("Print"), _beside(self.paper, self.print))
-        rows = QVBoxLayout(self)
-        rows.setContentsMargins(0, 0, 0, 0)
-        rows.addLayout(form)
-        rows.addWidget(self.note)
-        self.note.hide()
-
     def _connect(self) -> None:
-        self.body.currentIndexChanged.connect(lambda _: self._take_body())
-        self.edge.valueChanged.connect(lambda _: self.changed.emit())
+        self.edited.connect(lambda where, *_: self._take(where))
         for box in (self.source, self.size_box):
             box.currentTextChanged.connect(lambda _: self.changed.emit())
         self.lens.changed.connect(self.changed)
         self.changed.connect(self._enable)
         self.print.clicked.connect(lambda _=False: self._ask())
-
-
-def _beside(first: QWidget, second: QWidget) -> QHBoxLayout:
-    row = QHBoxLayout()
-    row.addWidget(first)
-    row.addWidget(second, 1)
-    return row
 
 
 LOOK_MS: Final = 200

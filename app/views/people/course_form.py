@@ -7,11 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 from PySide6.QtCore import QDate, Qt
 from PySide6.QtWidgets import (
-    QCheckBox,
     QComboBox,
     QDateEdit,
     QDialogButtonBox,
-    QFormLayout,
     QHBoxLayout,
     QLineEdit,
     QSpinBox,
@@ -24,16 +22,18 @@ from PySide6.QtWidgets import (
 from app.core.configuration import FieldProblem, checked
 from app.exercises.guidance import Purpose
 from app.exercises.schema import Exercise
+from app.scoring.competence import RULE
 from app.session.course import Course, CourseError
 from app.session.course_plan import CoursePlan
 from app.views.kit import theme
 from app.views.kit.field_words import problem_words
-from app.views.kit.parts import add_row, button
+from app.views.kit.form import Form
+from app.views.kit.parts import button
 from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import declared, listing, literal, tr
 from app.views.kit.wheel import wheel_scrolls
 from app.views.people.competence_marks import CompetenceRates
-from app.views.people.pages import lead
+from app.views.people.dialogs import lead
 
 
 class CourseDialog(SettingsDialog):
@@ -59,9 +59,20 @@ class CourseDialog(SettingsDialog):
     ) -> None:
         super().__init__(tr("Course"), (860, 520), QDialogButtonBox.StandardButton.Save, parent)
         self._take, self._exercises, self._known = take, exercises, tuple(groups)
-        self.id, self.title, self.groups = (QLineEdit(self) for _ in range(3))
-        self.ordered = QCheckBox(tr("In order: the next opens when the one before was passed"))
+        self.form = Form(Course, self)
+        self.id = self.form.text("id", hint="autumn-2026", read=str.strip)
+        self.title = self.form.text("title", read=str.strip)
+        self.groups = self.form.text(
+            "groups",
+            hint=tr("separated by commas; empty: everybody"),
+            read=_names_of,
+            write=", ".join,
+        )
         self.rates = CompetenceRates(self)
+        show, read = self.rates.show_rule, self.rates.document
+        title = tr("Competence")
+        self.form.add(("competence",), title, self.rates, lambda rule: show(rule or RULE), read)
+        self.ordered = self.form.check("ordered")
         self.offered = QComboBox(self)
         self.offered.setAccessibleName(tr("Exercise to add"))
         for identifier, exercise in exercises.items():
@@ -75,16 +86,6 @@ class CourseDialog(SettingsDialog):
         self.items.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 8)
         for place, width in enumerate((230, 80, 90, 120, 125, 125)):
             self.items.setColumnWidth(place, width)
-        form = QFormLayout()
-        self.groups.setPlaceholderText(tr("separated by commas; empty: everybody"))
-        self.id.setPlaceholderText("autumn-2026")
-        for name, field in (
-            (tr("File name"), self.id),
-            (tr("Title"), self.title),
-            (tr("Groups"), self.groups),
-        ):
-            add_row(form, name, field)
-        add_row(form, tr("Competence"), self.rates)
         row = QHBoxLayout()
         row.addWidget(self.offered, 1)
         row.addWidget(self.add)
@@ -92,8 +93,7 @@ class CourseDialog(SettingsDialog):
         column = QVBoxLayout(self)
         if course is None and plans:
             column.addLayout(self._beginning(plans))
-        column.addLayout(form)
-        column.addWidget(self.ordered)
+        column.addWidget(self.form)
         column.addLayout(row)
         column.addWidget(self.items, 1)
         column.addWidget(self.note)
@@ -193,16 +193,8 @@ class CourseDialog(SettingsDialog):
         Raises:
             CourseError: naming the field as the form does, its value and what would be valid.
         """
-        groups = [name.strip() for name in self.groups.text().split(",") if name.strip()]
-        document = {
-            "id": self.id.text().strip(),
-            "title": self.title.text().strip(),
-            "groups": groups,
-            "ordered": self.ordered.isChecked(),
-            "items": [self._item(row) for row in range(self.items.rowCount())],
-            "competence": self.rates.document(),
-        }
-        course, problems = checked(document, Course)
+        items = [self._item(row) for row in range(self.items.rowCount())]
+        course, problems = checked({**self.form.values(), "items": items}, Course)
         if course is None:
             raise self._refused(problems[0])
         return course
@@ -211,10 +203,8 @@ class CourseDialog(SettingsDialog):
         """Say what is wrong with a field as the form calls it, and put the cursor there."""
         place, words = problem.field, problem_words(problem)
         first = str(place[0]) if place else ""
-        lines = {"id": self.id, "title": self.title, "groups": self.groups}
-        names = {"id": tr("File name"), "title": tr("Title"), "groups": tr("Groups")}
-        names["competence"] = tr("Competence")
-        name, field = names.get(first, tr("Course")), lines.get(first)
+        label, field = self.form.names.get((first,)), self.form.fields.get((first,))
+        name = tr("Course") if label is None else label.text()
         if first == "items" and len(place) > 1:
             row, key = int(place[1]), str(place[2]) if len(place) > 2 else ""
             column = ("exercise", "version", "attempts", "purpose", "opens", "closes")
@@ -276,12 +266,12 @@ class CourseDialog(SettingsDialog):
         return found
 
     def _show(self, course: Course) -> None:
-        self.rates.show_rule(course.competence)
-        self.id.setText(course.id)
+        self.form.show_values(dict(course))
         self.id.setReadOnly(True)
-        self.title.setText(course.title)
-        self.groups.setText(", ".join(course.groups))
-        self.ordered.setChecked(course.ordered)
         for item in course.items:
             days = [str(day) if day else "" for day in (item.opens, item.closes)]
             self.add_item(item.exercise, item.version, item.attempts or 0, item.purpose, *days)
+
+
+def _names_of(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(",") if name.strip())

@@ -45,20 +45,16 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
 from app.views.kit.roles import EVERYBODY, STAFF, Role
 from app.views.kit.text import begun, declared, tr, tr_n, translated
+from app.views.people.board import GROUP_PDF, STUDENT_PDF
 from app.views.people.course_form import CourseDialog
 from app.views.people.curve import CurveDialog
+from app.views.people.dialogs import EntryDialog, text_dialog
 from app.views.people.folder_backups import FolderBackups
 from app.views.people.group_report import group_report
 from app.views.people.hospital import HospitalSignIn
 from app.views.people.leaving import LeavingChoice, LeavingDialog
 from app.views.people.lrs_link import LrsLink
-from app.views.people.pages import (
-    GROUP_PDF,
-    STUDENT_PDF,
-    EntryDialog,
-    PeoplePage,
-    text_dialog,
-)
+from app.views.people.pages import PeoplePage
 from app.views.people.report_facts import ReportFacts
 from app.views.people.restoring import BackupRestorer
 from app.views.people.results_report import student_report, write_report

@@ -12,7 +12,7 @@ from app.session.archive import Saved, backup_into
 from app.session.backup_folder import backups_of, is_encrypted, pieces_for
 from app.session.errors import PeopleError
 from app.views.kit.text import tr, tr_n
-from app.views.people.pages import EntryDialog
+from app.views.people.dialogs import EntryDialog
 from app.views.people.stations import StationDoors
 
 
@@ -67,7 +67,7 @@ class FolderBackups:
             fields = [(tr("Passphrase (empty: not encrypted)"), True), (tr("Again"), True)]
         title, parent = tr("Back up into a folder"), self._doors.parent()
         dialog = EntryDialog(title, fields, take, words, parent)
-        dialog.form.addRow(cts)
+        dialog.form.wide(cts)
         self._doors.open(dialog)
 
     def write(self, folder: Path, passphrase: str = "", with_cts: bool = False) -> None:

@@ -29,7 +29,7 @@ from app.views.kit.roles import Role, role_title
 from app.views.kit.settings_dialog import make_room
 from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
-from app.views.people.pages import EntryDialog
+from app.views.people.dialogs import EntryDialog
 from app.views.people.stations import StationDoors
 
 

@@ -5,21 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QComboBox,
-    QDialogButtonBox,
-    QFormLayout,
-    QLineEdit,
-    QSpinBox,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialogButtonBox, QVBoxLayout, QWidget
 
 from app.exchange.moodle import GradeFrom, GradeRule, MoodleChoice, chance_words, identifiers
 from app.session.accounts import Account
 from app.session.board import ProgressBoard
-from app.views.kit.parts import add_row
+from app.views.kit.form import Form
 from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import tr, translated
 
@@ -58,57 +49,49 @@ class LeavingDialog(SettingsDialog):
     ) -> None:
         title = tr("Report of the group") if accounts is None else tr("Gradebook for Moodle")
         super().__init__(title, (560, 320), QDialogButtonBox.StandardButton.Ok, parent)
-        self._board, self._accounts, self._take = board, accounts, take
-        self.rule, self.last = QComboBox(self), QSpinBox(self)
-        for words, rule in (
-            (tr("the best attempt"), GradeFrom.BEST),
-            (tr("the first attempt"), GradeFrom.FIRST),
-            (tr("the last attempt"), GradeFrom.LAST),
-            (tr("the mean of the last attempts"), GradeFrom.MEAN),
-        ):
-            self.rule.addItem(words, rule.value)
-        self.last.setRange(2, 100)
-        self.last.setValue(3)
-        self.identifier, self.feedback = QComboBox(self), QCheckBox(tr("A column of feedback too"))
-        for words, kind in (
-            (tr("user name (else the pseudonym)"), Account.USERNAME),
-            (tr("e-mail address"), Account.EMAIL),
-            (tr("ID number"), Account.IDNUMBER),
-        ):
-            self.identifier.addItem(words, kind.value)
-        self.place = QLineEdit(place, self)
-        self.place.setPlaceholderText(tr("empty: a line to fill in by hand"))
-        form = QFormLayout()
-        add_row(form, tr("A mark is"), self.rule)
-        add_row(form, tr("How many"), self.last)
+        self._board, self._accounts, self._place, self._take = board, accounts, place, take
+        self.form = form = Form(parent=self)
+        marks = (
+            (GradeFrom.BEST.value, tr("the best attempt")),
+            (GradeFrom.FIRST.value, tr("the first attempt")),
+            (GradeFrom.LAST.value, tr("the last attempt")),
+            (GradeFrom.MEAN.value, tr("the mean of the last attempts")),
+        )
+        form.choice("rule", title=tr("A mark is"), among=marks)
+        self._last = form.count("last", title=tr("How many"), within=(2, 100, 3))
         if accounts is None:
-            add_row(form, tr("Venue"), self.place)
+            hint = tr("empty: a line to fill in by hand")
+            form.text("place", title=tr("Venue"), hint=hint, read=str.strip)
+            form.show_values({"place": place})
         else:
-            add_row(form, tr("Moodle knows students by"), self.identifier)
-            form.addRow("", self.feedback)
-        for widget in (self.place,) if accounts is not None else (self.identifier, self.feedback):
-            widget.hide()
+            kinds = (
+                (Account.USERNAME.value, tr("user name (else the pseudonym)")),
+                (Account.EMAIL.value, tr("e-mail address")),
+                (Account.IDNUMBER.value, tr("ID number")),
+            )
+            form.choice("identifier", title=tr("Moodle knows students by"), among=kinds)
+            form.check("feedback", title=tr("A column of feedback too"), indented=True)
         column = QVBoxLayout(self)
-        column.addLayout(form)
+        column.addWidget(form)
         column.addStretch(1)
         column.addWidget(self.note)
         column.addWidget(self.buttons)
-        self.rule.currentIndexChanged.connect(self._show_chance)
-        self.last.valueChanged.connect(self._show_chance)
+        form.edited.connect(lambda *_: self._show_chance())
         self._show_chance()
 
     def choice(self) -> LeavingChoice:
         """Return what is chosen."""
-        rule = GradeFrom(self.rule.currentData())
-        grades = GradeRule(rule, self.last.value() if rule is GradeFrom.MEAN else 0)
-        kind = Account(self.identifier.currentData())
-        gradebook = MoodleChoice(kind, grades, self.feedback.isChecked())
-        return LeavingChoice(gradebook, self.place.text().strip())
+        found = self.form.values()
+        rule = GradeFrom(found["rule"])
+        grades = GradeRule(rule, found["last"] if rule is GradeFrom.MEAN else 0)
+        kind = Account(found.get("identifier", Account.USERNAME))
+        gradebook = MoodleChoice(kind, grades, found.get("feedback", False))
+        return LeavingChoice(gradebook, found.get("place", self._place))
 
     def check(self) -> None:
         """Refuse an identifier that a student lacks, or two share."""
         if self._accounts is not None:
-            kind = Account(self.identifier.currentData())
+            kind = self.choice().gradebook.identifier
             identifiers(self._board.students, kind, self._accounts)
 
     def keep(self) -> None:
@@ -118,6 +101,6 @@ class LeavingDialog(SettingsDialog):
     def _show_chance(self) -> None:
         """Say what chance does to marks by the rule that is chosen."""
         rule = self.choice().gradebook.rule
-        self.last.setEnabled(rule.rule is GradeFrom.MEAN)
+        self._last.setEnabled(rule.rule is GradeFrom.MEAN)
         words = translated(chance_words(self._board, rule))
         self.say(words[:1].upper() + words[1:])

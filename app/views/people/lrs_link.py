@@ -29,7 +29,7 @@ from app.session.board import board_of
 from app.session.statement_queue import FOLDER, StatementQueue
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr, tr_n, translated
-from app.views.people.pages import EntryDialog
+from app.views.people.dialogs import EntryDialog
 from app.views.people.stations import StationDoors
 
 EVERY_MS: Final = 60_000

@@ -11,7 +11,7 @@ from app.core.progress import Progress
 from app.session.backup_folder import is_encrypted, opened_backup
 from app.session.restoring import Restored, restore_backup
 from app.views.kit.text import tr, tr_n, translated
-from app.views.people.pages import EntryDialog
+from app.views.people.dialogs import EntryDialog
 from app.views.people.stations import StationDoors
 
 
@@ -59,7 +59,7 @@ class BackupRestorer:
         parent = self._doors.parent()
         dialog = EntryDialog(tr("Restore a backup"), fields, take, words, parent)
         instead.setParent(dialog)
-        dialog.form.addRow(instead)
+        dialog.form.wide(instead)
         self._doors.open(dialog)
 
     def restore(

@@ -29,7 +29,7 @@ from app.session.station import StationKey
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import message_box
 from app.views.kit.text import tr, tr_n, translated
-from app.views.people.pages import EntryDialog
+from app.views.people.dialogs import EntryDialog
 from app.views.people.stations import Gathered, StationDoors, summary_words
 
 EVERY_MS: Final = 60_000
@@ -144,7 +144,7 @@ class SchoolLink(QObject):
         for box, on in ((gives, known.gives_course), (pins, known.pins)):
             box.setParent(dialog)
             box.setChecked(on)
-            dialog.form.addRow(box)
+            dialog.form.wide(box)
         dialog.lines[0].setText(known.url)
         self._doors.open(dialog)
         if trouble:
