@@ -52,14 +52,14 @@ from app.exercises.guidance import Purpose
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
 from app.session.ablation import AblationState
-from app.session.complications import ComplicationCase
+from app.session.complication_case import ComplicationCase
 from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
 from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.observation import GRACE
 from app.session.planned import judged_plan_of
-from app.session.procedure import marks_of
+from app.session.procedure_marks import marks_of
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Annotated, Final, Literal, Self
 
 from pydantic import (
     AfterValidator,
@@ -165,10 +165,21 @@ class OwnPlan(Strict):
     Attributes:
         own: says so.
         target_mm: DICOM LPS [mm]; None for the lesion of the phantom.
+        trial_entry_mm: entry of those who try the exercise without a window, which no student is
+            shown; with `target_mm`. None for the phantom's own entry, to its own lesion.
     """
 
     own: Literal[True]
     target_mm: Triple | None = None
+    trial_entry_mm: Triple | None = None
+
+    @model_validator(mode="after")
+    def _trial_has_both_ends(self) -> Self:
+        if self.trial_entry_mm is not None and self.target_mm is None:
+            raise ValueError(
+                sentence("plan: trial_entry_mm goes with target_mm: give both, or neither")
+            )
+        return self
 
 
 OF_LUNG_PATHS: Final = frozenset(

@@ -12,7 +12,8 @@ from typing import Final
 
 from app.core.events import Event
 from app.scoring.complications.answers import GuidelineRow, Kind, Reaction
-from app.session.complications import KIND, ComplicationCase, Complications
+from app.session.complication_case import KIND, ComplicationCase
+from app.session.complications import Complications
 from app.session.needle_now import NeedleNow
 from app.simulation.hands import SUFFIX
 

@@ -29,9 +29,9 @@ from app.session.ablation import AblationState
 from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
 from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
-from app.session.complications import KIND as COMPLICATION
+from app.session.complication_case import KIND as COMPLICATION
+from app.session.complication_case import ComplicationCase
 from app.session.complications import (
-    ComplicationCase,
     Complications,
     Happening,
     attempt_seed,
@@ -455,6 +455,8 @@ class Trainer:
             )
             if happens is not None and step is Step.FIRE:
                 happens.fired(NeedleNow.of(seen))
+            if happens is not None and step is Step.ROLL_OVER:
+                happens.rolled_over()
             if step is Step.PLACE_ELECTRODE:
                 self._take_aim()
             return self._procedure

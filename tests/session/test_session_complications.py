@@ -24,14 +24,9 @@ from app.scoring.complications.lots import Lots
 from app.scoring.procedure import ProcedureMarks
 from app.scoring.trajectory import Trajectory
 from app.session import trainer
-from app.session.complications import (
-    KIND,
-    ComplicationCase,
-    Complications,
-    attempt_seed,
-    lying_of,
-    marks_of_complications,
-)
+from app.session.complication_case import KIND, ComplicationCase, lying_of
+from app.session.complication_marks import marks_of_complications
+from app.session.complications import Complications, attempt_seed
 from app.session.control_scan import ControlScan, scans_of
 from app.session.errors import ProcedureNotPossibleError
 from app.session.lung_watch import LungWatch, lesion_facts

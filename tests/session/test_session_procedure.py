@@ -20,9 +20,9 @@ from app.session.procedure import (
     Step,
     ToolInHand,
     begin_data,
-    marks_of,
     perform,
 )
+from app.session.procedure_marks import marks_of
 from tests.field_rig import ball, beyond, field_of_shapes
 
 TARGET = np.array([20.0, 40.0, 20.0])

@@ -23,6 +23,7 @@ from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import HandName, Lock
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
+from app.exercises.taught import taught_words
 from app.imaging.field.tissue_words import tissue_words
 from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
@@ -309,7 +310,8 @@ class BriefingPage(QWidget):
         super().__init__(parent)
         self.title, self.kind = label("", "title"), label("", "dim")
         self.description = label()
-        self.scored, self.locked, self.aids, self.attempts = (label() for _ in range(4))
+        self.taught, self.scored, self.locked, self.aids = (label() for _ in range(4))
+        self.attempts = label()
         self.views = tuple(PortraitView(name, self) for name in ("axial", "coronal", "sagittal"))
         self.begin = _key_button(tr("Begin (Enter)"), "primary")
         self.show_me = _key_button(tr("Show me (D)"))
@@ -333,6 +335,7 @@ class BriefingPage(QWidget):
         self.description.setText(
             declared(exercise.description) or tr("Insert the needle to the target.")
         )
+        self.taught.setText(_lines([translated(words) for words in taught_words(exercise)]))
         self.scored.setText(_lines(scored_words(exercise)))
         self.locked.setText(_lines(locked_words(exercise)))
         self.aids.setText(_lines(aid_words(exercise, ACCESS.role)))
@@ -390,6 +393,7 @@ class BriefingPage(QWidget):
         column.setSpacing(theme.SPACING // 2)
         column.addWidget(self.description)
         for heading, part in (
+            (tr("Steps that it teaches"), self.taught),
             (tr("What is scored"), self.scored),
             (tr("What helps"), self.aids),
             (tr("What is locked"), self.locked),
