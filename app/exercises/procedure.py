@@ -5,10 +5,15 @@ Each is a part of its own; what an exercise does not name is neither simulated n
 
 from __future__ import annotations
 
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import (
+    Field,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
 
 from app.core.arrays import FloatArray
 from app.core.configuration import Strict
@@ -228,6 +233,15 @@ class ProcedurePart(Strict):
     ablation: AblationPart | None = None
     checklist: ChecklistPart | None = None
     rollover: RolloverPart | None = None
+
+    @model_serializer(mode="wrap")
+    def _as_before(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out what is younger than the rest and not asked for: older records stay equal."""
+        document: dict[str, Any] = handler(self)
+        for name in ("checklist", "rollover"):
+            if getattr(self, name) is None:
+                document.pop(name, None)
+        return document
 
     @model_validator(mode="after")
     def _turned_after_something(self) -> ProcedurePart:
