@@ -12,7 +12,6 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import ndimage
 
 from app.core.arrays import FloatArray, frozen
 from app.imaging.volume import Volume
@@ -112,6 +111,8 @@ def _deepest(lines: NDArray[np.float64], steps_mm: tuple[float, float]) -> float
     It is the largest distance from the wall of the air that lines meet first behind it: airways
     lie deeper.
     """
+    from scipy import ndimage  # only who reads a picture waits for it
+
     begun = [_first_air(line, steps_mm[1]) for line in lines]
     seeds = [(row, at) for row, at in enumerate(begun) if at is not None]
     if len(seeds) < LEAST_LINES:  # what one line alone shows is no rim
@@ -191,5 +192,7 @@ def _radius(denser: NDArray[np.bool_], lung: NDArray[np.bool_], away: FloatArray
 
 
 def _smooth(layer: NDArray[np.int16], pixel: list[float]) -> NDArray[np.float64]:
+    from scipy import ndimage
+
     size = [max(1, round(SMOOTH_MM / step)) for step in (pixel[1], pixel[0])]
     return np.asarray(ndimage.uniform_filter(layer.astype(np.float64), size, mode="nearest"))

@@ -224,7 +224,7 @@ class ScriptedPatient:
         events = [Event(now, KIND, one.words, one.data) for one in happened]
         if self.answers is None:
             return events
-        inside = is_outer and needle.depth > 0.0
+        inside = is_outer and needle.measured and needle.depth > 0.0
         if self.taking is not None and self.answers.wants_scan(inside, now):
             scan = self._scan(self.taking, needle, now)
             reading = ScanReading() if self.reader is None else self.reader.read(scan)

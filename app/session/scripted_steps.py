@@ -169,6 +169,7 @@ def steps_of_rows(
             depth,
             samples.target[row] + aside[row],
             bool(seen[row]),
+            None if patient is None else patient.happens.fallen_mm,
         )
         time = float(samples.time[row])
 

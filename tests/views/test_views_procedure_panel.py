@@ -207,6 +207,15 @@ def test_where_scans_guide_another_step_has_a_button_and_a_key_in_the_guns_place
     assert not panel.fire.isHidden()
 
 
+def test_the_other_key_is_dead_where_no_procedure_is_shown(panel: ProcedurePanel) -> None:
+    panel.show_procedure(turned(ToolInHand.ANAESTHETIC, deposits=1), True, None)
+    assert panel.other.isEnabled()
+    panel.show_procedure(None, False)
+    assert not panel.other.isEnabled()
+    panel.other.click()
+    assert panel.seen == []  # type: ignore[attr-defined]
+
+
 def test_what_was_checked_and_turned_is_told(panel: ProcedurePanel) -> None:
     panel.show_procedure(turned(ToolInHand.STYLET, checked=CHECKED, rolled=True), True, False)
     assert "INR 1 (at most 1.8)" in panel.results.text()

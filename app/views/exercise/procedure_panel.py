@@ -72,6 +72,7 @@ class ProcedurePanel(StepPanel):
             self._show(state, commands, inside)
         elif state is None:
             self._state, self._shown = None, (None, False, False)
+            self._offer_other(None)
             self._enable(set())
 
     def _offer_settings(self, state: ProcedureState) -> None:
