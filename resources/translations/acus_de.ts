@@ -14457,10 +14457,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Nadel aus der Haut ziehen, zu {n} drehen</translation>
         </message>
         <message>
-            <source>Draw the needle out, then take the next one (J)</source>
-            <translation type="unfinished">Ziehen Sie die Nadel heraus und nehmen Sie die nächste (J)</translation>
-        </message>
-        <message>
             <source>Draw the needle out, or give more (J)</source>
             <translation>Ziehen Sie die Nadel heraus, oder geben Sie mehr (J)</translation>
         </message>
@@ -19116,10 +19112,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ein simulierter Arm führt den Plan aus</translation>
         </message>
         <message>
-            <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
-            <translation>Abladieren Sie die Läsion in der Leber mit 5 mm Leber darum. Bringen Sie die Nadel an den ersten Platz und lassen Sie die Elektrode dort (J), ziehen Sie die Nadel aus der Haut zurück, drehen Sie sie zum nächsten Pfad, und so weiter für alle drei. Dann den Generator starten (J). Die Zonen folgen daraus, wo die Elektroden wirklich liegen: geplant sind 40 W für 20 min.</translation>
-        </message>
-        <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
             <translation type="unfinished">Gegenspieler: Versuche, die belohnt werden und es nicht dürften</translation>
         </message>
@@ -19622,14 +19614,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
             <translation>Vom ersten Einstich bis zur ganzen Biopsie eines Lungenherds: Hand und Gewebe, das Wählen eines Wegs, ein doppelt schräger Weg zwischen zwei Rippen, die ganze Biopsie, eine, bei der etwas geschehen kann, und eine Prüfung allein mit Kontrollscans.</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J).</source>
-            <translation>Nehmen Sie unter Kontrollscans zwei Proben des Rundherds in der rechten Lunge: den Einstich nach dem Gitter markieren, Lokalanästhesie bis an die Pleura (J), die Außennadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Gerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein. Scannen Sie wieder (S), und achten Sie auf Monitor und Patient: die Lunge kann zusammenfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J).</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
-            <translation>Nehmen Sie zwei Proben des Rundherds in der rechten Lunge. Geben Sie zuerst Lokalanästhetikum bis kurz vor die Pleura (J), ziehen Sie diese Nadel heraus und nehmen Sie die Außennadel (J). Halten Sie vor der Pleura an, durchqueren Sie sie in einem Zug, während der Herd ruht, und halten Sie mit der Spitze an seinem nahen Rand. Dann Mandrin heraus, Gerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein; drehen Sie die Kerbe und nehmen Sie eine weitere. Halten Sie den Ansatz geschlossen: wo er offen ist, kommt Luft hinein.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -23945,6 +23929,200 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
             <translation>Kippung der Gantry: + neigt die Vorderseite der Schichten zum Kopf. Schichten, und was von der Nadel in ihnen liegt, gehen mit</translation>
+        </message>
+        <message>
+            <source>inr {inr:g}: above {most:g} coagulation is corrected before a needle goes in; give a patient with {most:g} or less</source>
+            <translation type="unfinished">inr {inr:g}: über {most:g} wird die Gerinnung korrigiert, bevor eine Nadel eindringt; geben Sie einen Patienten mit {most:g} oder weniger an</translation>
+        </message>
+        <message>
+            <source>platelets {platelets:g} · 10⁹/l: below {least:g} they are given before a needle goes in; give a patient with {least:g} or more</source>
+            <translation type="unfinished">platelets {platelets:g} · 10⁹/l: unter {least:g} werden Thrombozyten gegeben, bevor eine Nadel eindringt; geben Sie einen Patienten mit {least:g} oder mehr an</translation>
+        </message>
+        <message>
+            <source>procedure: rollover is after samples or an ablation: add biopsy or ablation, or leave it out</source>
+            <translation type="unfinished">procedure: rollover folgt auf Proben oder eine Ablation: Ergänzen Sie biopsy oder ablation, oder lassen Sie es weg</translation>
+        </message>
+        <message>
+            <source>plan: trial_entry_mm goes with target_mm: give both, or neither</source>
+            <translation type="unfinished">plan: trial_entry_mm gehört zu target_mm: Geben Sie beide an oder keines</translation>
+        </message>
+        <message>
+            <source>checklist: consent and coagulation</source>
+            <translation type="unfinished">Checkliste: Einwilligung und Gerinnung</translation>
+        </message>
+        <message>
+            <source>choosing the path</source>
+            <translation type="unfinished">den Pfad wählen</translation>
+        </message>
+        <message>
+            <source>the path report of a lung biopsy</source>
+            <translation type="unfinished">der Pfadbericht einer Lungenbiopsie</translation>
+        </message>
+        <message>
+            <source>the entry by a marker grid</source>
+            <translation type="unfinished">der Einstich nach einem Markierungsraster</translation>
+        </message>
+        <message>
+            <source>the way in by control scans</source>
+            <translation type="unfinished">das Vorgehen nach Kontrollscans</translation>
+        </message>
+        <message>
+            <source>local anaesthetic down to the membrane</source>
+            <translation type="unfinished">Lokalanästhesie bis an die Membran</translation>
+        </message>
+        <message>
+            <source>the pause before the membrane</source>
+            <translation type="unfinished">die Pause vor der Membran</translation>
+        </message>
+        <message>
+            <source>samples through a coaxial needle</source>
+            <translation type="unfinished">Proben durch eine Koaxialnadel</translation>
+        </message>
+        <message>
+            <source>noticing and answering complications</source>
+            <translation type="unfinished">Komplikationen bemerken und behandeln</translation>
+        </message>
+        <message>
+            <source>several electrodes and the generator</source>
+            <translation type="unfinished">mehrere Elektroden und der Generator</translation>
+        </message>
+        <message>
+            <source>turning the patient puncture side down</source>
+            <translation type="unfinished">den Patienten auf die Einstichseite drehen</translation>
+        </message>
+        <message>
+            <source>no step of an intervention: the way of the needle, or tool, alone</source>
+            <translation type="unfinished">kein Schritt eines Eingriffs: allein der Weg der Nadel oder des Werkzeugs</translation>
+        </message>
+        <message>
+            <source>the patient knows the risks and agrees</source>
+            <translation type="unfinished">der Patient kennt die Risiken und willigt ein</translation>
+        </message>
+        <message>
+            <source>coagulation checked</source>
+            <translation type="unfinished">Gerinnung geprüft</translation>
+        </message>
+        <message>
+            <source>the patient is turned, puncture side down</source>
+            <translation type="unfinished">der Patient ist auf die Einstichseite gedreht</translation>
+        </message>
+        <message>
+            <source>the patient was turned: nothing more is done with the needle</source>
+            <translation type="unfinished">der Patient wurde gedreht: Mit der Nadel wird nichts mehr getan</translation>
+        </message>
+        <message>
+            <source>this exercise has no checklist</source>
+            <translation type="unfinished">diese Übung hat keine Checkliste</translation>
+        </message>
+        <message>
+            <source>that was checked already</source>
+            <translation type="unfinished">das wurde schon geprüft</translation>
+        </message>
+        <message>
+            <source>in this exercise the patient is not turned</source>
+            <translation type="unfinished">in dieser Übung wird der Patient nicht gedreht</translation>
+        </message>
+        <message>
+            <source>no sample was taken: the patient is turned after the last one</source>
+            <translation type="unfinished">es wurde keine Probe genommen: Der Patient wird nach der letzten gedreht</translation>
+        </message>
+        <message>
+            <source>nothing was ablated: the patient is turned after that</source>
+            <translation type="unfinished">es wurde nichts abladiert: Der Patient wird danach gedreht</translation>
+        </message>
+        <message>
+            <source>the needle is still in the body: draw it out, then turn the patient</source>
+            <translation type="unfinished">die Nadel ist noch im Körper: Ziehen Sie sie heraus, dann drehen Sie den Patienten</translation>
+        </message>
+        <message>
+            <source>coagulation checked: INR {inr:g} (at most {most:g}), platelets {platelets:g} · 10⁹/l (at least {least:g})</source>
+            <translation type="unfinished">Gerinnung geprüft: INR {inr:g} (höchstens {most:g}), Thrombozyten {platelets:g} · 10⁹/l (mindestens {least:g})</translation>
+        </message>
+        <message>
+            <source>the exercise does not have the patient turned</source>
+            <translation type="unfinished">in der Übung wird der Patient nicht gedreht</translation>
+        </message>
+        <message>
+            <source>Checklist before the needle</source>
+            <translation type="unfinished">Checkliste vor der Nadel</translation>
+        </message>
+        <message>
+            <source>Patient turned after</source>
+            <translation type="unfinished">Patient gedreht nach</translation>
+        </message>
+        <message>
+            <source>What may be done in its place</source>
+            <translation type="unfinished">Was stattdessen getan werden kann</translation>
+        </message>
+        <message>
+            <source>Give more (Alt+J)</source>
+            <translation type="unfinished">Mehr geben (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Needle out: turn the patient (Alt+J)</source>
+            <translation type="unfinished">Nadel heraus: Patienten drehen (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Ask for consent (J)</source>
+            <translation type="unfinished">Einwilligung einholen (J)</translation>
+        </message>
+        <message>
+            <source>Check coagulation (J)</source>
+            <translation type="unfinished">Gerinnung prüfen (J)</translation>
+        </message>
+        <message>
+            <source>Turn the patient (J)</source>
+            <translation type="unfinished">Patienten drehen (J)</translation>
+        </message>
+        <message>
+            <source>The patient is turned: Enter ends the attempt</source>
+            <translation type="unfinished">Der Patient ist gedreht: Enter beendet den Versuch</translation>
+        </message>
+        <message>
+            <source>Needle out: turn the patient (J)</source>
+            <translation type="unfinished">Nadel heraus: Patienten drehen (J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw out and turn the patient (Alt+J)</source>
+            <translation type="unfinished">Mandrin heraus (J) für eine weitere; oder herausziehen und Patienten drehen (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw the needle out</source>
+            <translation type="unfinished">Mandrin heraus (J) für eine weitere; oder die Nadel herausziehen</translation>
+        </message>
+        <message>
+            <source>Turn the patient puncture side down (J)</source>
+            <translation type="unfinished">Patienten auf die Einstichseite drehen (J)</translation>
+        </message>
+        <message>
+            <source>Draw the needle out, then take the next one (J); or give more (Alt+J)</source>
+            <translation type="unfinished">Nadel herausziehen, dann die nächste nehmen (J); oder mehr geben (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Steps that it teaches</source>
+            <translation type="unfinished">Schritte, die sie lehrt</translation>
+        </message>
+        <message>
+            <source>another step in its place</source>
+            <translation type="unfinished">ein anderer Schritt an seiner Stelle</translation>
+        </message>
+        <message>
+            <source>
+  teaches: {steps}</source>
+            <translation type="unfinished">
+  lehrt: {steps}</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung. Choose the path first: place the entry (E, or the map of entries in the panel Plan) so that it meets no rib, little lung and no fissure. Then ask for consent and check coagulation (J, J), give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open. At the end draw the needle out and have the patient turned puncture side down at once (J).</source>
+            <translation type="unfinished">Nehmen Sie zwei Proben des Rundherds in der rechten Lunge. Wählen Sie zuerst den Pfad: Setzen Sie den Einstich (E, oder die Karte der Einstiche in der Tafel Plan) so, dass er keine Rippe, wenig Lunge und keinen Lappenspalt trifft. Dann holen Sie die Einwilligung ein und prüfen die Gerinnung (J, J), geben Lokalanästhesie kurz vor der Pleura (J), ziehen diese Nadel heraus und nehmen die Außennadel (J). Halten Sie vor der Pleura inne, queren Sie sie in einem Zug, während der Rundherd ruht, und halten Sie mit der Spitze am nahen Rand des Rundherds. Dann Mandrin heraus, Biopsiegerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein; drehen Sie die Kerbe und nehmen Sie eine weitere. Halten Sie den Ansatz geschlossen: Durch den offenen dringt Luft ein. Am Ende ziehen Sie die Nadel heraus und lassen den Patienten sofort auf die Einstichseite drehen (J).</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, ask for consent and check coagulation (J, J), local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). At the end draw the needle out and have the patient turned puncture side down (Alt+J), and scan once more.</source>
+            <translation type="unfinished">Nehmen Sie zwei Proben des Rundherds in der rechten Lunge nach Kontrollscans: Markieren Sie den Einstich nach dem Raster, holen Sie die Einwilligung ein und prüfen Sie die Gerinnung (J, J), Lokalanästhesie bis an die Pleura (J), die Außennadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Biopsiegerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein. Scannen Sie wieder (S), und beobachten Sie Monitor und Patient: Die Lunge kann zurückfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J). Am Ende ziehen Sie die Nadel heraus, lassen den Patienten auf die Einstichseite drehen (Alt+J) und scannen noch einmal.</translation>
+        </message>
+        <message>
+            <source>Ablate the lesion in the liver with 5 mm of liver about it. Ask for consent and check coagulation (J, J). Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J), and have the patient turned puncture side down (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
+            <translation type="unfinished">Abladieren Sie die Läsion in der Leber mit 5 mm Leber ringsum. Holen Sie die Einwilligung ein und prüfen Sie die Gerinnung (J, J). Bringen Sie die Nadel an die erste Stelle und lassen Sie die Elektrode dort (J), ziehen Sie die Nadel wieder aus der Haut, drehen Sie sie auf den nächsten Pfad, und so fort für alle drei. Dann starten Sie den Generator (J) und lassen den Patienten auf die Einstichseite drehen (J). Die Zonen folgen daraus, wo die Elektroden wirklich liegen: Geplant sind 40 W für 20 min.</translation>
         </message>
     </context>
 </TS>

@@ -14457,10 +14457,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>Retirez l’aiguille de la peau, tournez-la vers {n}</translation>
         </message>
         <message>
-            <source>Draw the needle out, then take the next one (J)</source>
-            <translation type="unfinished">Retirez l’aiguille, puis prenez la suivante (J)</translation>
-        </message>
-        <message>
             <source>Draw the needle out, or give more (J)</source>
             <translation>Retirez l'aiguille, ou injectez encore (J)</translation>
         </message>
@@ -19116,10 +19112,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Un bras simulé exécute le plan</translation>
         </message>
         <message>
-            <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
-            <translation>Détruisez la lésion du foie avec 5 mm de foie autour. Amenez l’aiguille à la première place et laissez-y l’électrode (J), retirez l’aiguille de la peau, tournez-la vers le trajet suivant, et ainsi pour les trois. Puis démarrez le générateur (J). Les zones suivent de la vraie place des électrodes : prévus sont 40 W pendant 20 min.</translation>
-        </message>
-        <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
             <translation type="unfinished">Adversaire : essais récompensés qui ne devraient pas l’être</translation>
         </message>
@@ -19622,14 +19614,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
             <translation>De la première insertion à la biopsie entière d'un nodule pulmonaire : main et tissu, choix d'un trajet, trajet doublement oblique entre deux côtes, biopsie entière, une où quelque chose peut arriver, et une évaluation par scans de contrôle seuls.</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J).</source>
-            <translation>Prélevez deux échantillons du nodule du poumon droit sous scans de contrôle : marquez l'entrée d'après la grille, anesthésie locale jusqu'à la plèvre (J), l'aiguille externe (J), une pause, et une seule fois à travers la plèvre. Stylet retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, stylet remis. Refaites un scan (S), et surveillez moniteur et patient : le poumon peut se rétracter, ou saigner. Dites-le dès que vous le voyez (Shift+J), choisissez ce qu'il faut faire, et faites-le (Ctrl+Shift+J).</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
-            <translation>Prenez deux prélèvements du nodule du poumon droit. Injectez d'abord l'anesthésique local juste devant la plèvre (J), retirez cette aiguille et prenez l'aiguille externe (J). Arrêtez-vous devant la plèvre, traversez-la d'un seul geste pendant que le nodule est au repos, et arrêtez la pointe à son bord proche. Puis stylet retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, stylet en place ; tournez l'encoche et prenez-en un autre. Gardez l'embase fermée : ouverte, elle laisse entrer l'air.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -23945,6 +23929,200 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
             <translation>Inclinaison du statif : + penche l’avant des coupes vers la tête. Les coupes, et ce qui y est de l’aiguille, suivent</translation>
+        </message>
+        <message>
+            <source>inr {inr:g}: above {most:g} coagulation is corrected before a needle goes in; give a patient with {most:g} or less</source>
+            <translation type="unfinished">inr {inr:g} : au-dessus de {most:g}, la coagulation est corrigée avant qu'une aiguille n'entre ; indiquez un patient avec {most:g} ou moins</translation>
+        </message>
+        <message>
+            <source>platelets {platelets:g} · 10⁹/l: below {least:g} they are given before a needle goes in; give a patient with {least:g} or more</source>
+            <translation type="unfinished">platelets {platelets:g} · 10⁹/l : en dessous de {least:g}, des plaquettes sont données avant qu'une aiguille n'entre ; indiquez un patient avec {least:g} ou plus</translation>
+        </message>
+        <message>
+            <source>procedure: rollover is after samples or an ablation: add biopsy or ablation, or leave it out</source>
+            <translation type="unfinished">procedure : rollover suit des prélèvements ou une ablation : ajoutez biopsy ou ablation, ou omettez-le</translation>
+        </message>
+        <message>
+            <source>plan: trial_entry_mm goes with target_mm: give both, or neither</source>
+            <translation type="unfinished">plan : trial_entry_mm va avec target_mm : donnez les deux, ou aucun</translation>
+        </message>
+        <message>
+            <source>checklist: consent and coagulation</source>
+            <translation type="unfinished">liste de contrôle : consentement et coagulation</translation>
+        </message>
+        <message>
+            <source>choosing the path</source>
+            <translation type="unfinished">choisir la trajectoire</translation>
+        </message>
+        <message>
+            <source>the path report of a lung biopsy</source>
+            <translation type="unfinished">le rapport de la trajectoire d'une biopsie pulmonaire</translation>
+        </message>
+        <message>
+            <source>the entry by a marker grid</source>
+            <translation type="unfinished">le point d'entrée d'après une grille de repérage</translation>
+        </message>
+        <message>
+            <source>the way in by control scans</source>
+            <translation type="unfinished">la progression par scans de contrôle</translation>
+        </message>
+        <message>
+            <source>local anaesthetic down to the membrane</source>
+            <translation type="unfinished">anesthésie locale jusqu'à la membrane</translation>
+        </message>
+        <message>
+            <source>the pause before the membrane</source>
+            <translation type="unfinished">la pause avant la membrane</translation>
+        </message>
+        <message>
+            <source>samples through a coaxial needle</source>
+            <translation type="unfinished">prélèvements par une aiguille coaxiale</translation>
+        </message>
+        <message>
+            <source>noticing and answering complications</source>
+            <translation type="unfinished">remarquer les complications et y répondre</translation>
+        </message>
+        <message>
+            <source>several electrodes and the generator</source>
+            <translation type="unfinished">plusieurs électrodes et le générateur</translation>
+        </message>
+        <message>
+            <source>turning the patient puncture side down</source>
+            <translation type="unfinished">tourner le patient du côté de la ponction</translation>
+        </message>
+        <message>
+            <source>no step of an intervention: the way of the needle, or tool, alone</source>
+            <translation type="unfinished">aucune étape d'une intervention : seul le trajet de l'aiguille ou de l'outil</translation>
+        </message>
+        <message>
+            <source>the patient knows the risks and agrees</source>
+            <translation type="unfinished">le patient connaît les risques et consent</translation>
+        </message>
+        <message>
+            <source>coagulation checked</source>
+            <translation type="unfinished">coagulation vérifiée</translation>
+        </message>
+        <message>
+            <source>the patient is turned, puncture side down</source>
+            <translation type="unfinished">le patient est tourné du côté de la ponction</translation>
+        </message>
+        <message>
+            <source>the patient was turned: nothing more is done with the needle</source>
+            <translation type="unfinished">le patient a été tourné : plus rien n'est fait avec l'aiguille</translation>
+        </message>
+        <message>
+            <source>this exercise has no checklist</source>
+            <translation type="unfinished">cet exercice n'a pas de liste de contrôle</translation>
+        </message>
+        <message>
+            <source>that was checked already</source>
+            <translation type="unfinished">cela a déjà été vérifié</translation>
+        </message>
+        <message>
+            <source>in this exercise the patient is not turned</source>
+            <translation type="unfinished">dans cet exercice, le patient n'est pas tourné</translation>
+        </message>
+        <message>
+            <source>no sample was taken: the patient is turned after the last one</source>
+            <translation type="unfinished">aucun prélèvement n'a été fait : le patient est tourné après le dernier</translation>
+        </message>
+        <message>
+            <source>nothing was ablated: the patient is turned after that</source>
+            <translation type="unfinished">rien n'a été détruit : le patient est tourné ensuite</translation>
+        </message>
+        <message>
+            <source>the needle is still in the body: draw it out, then turn the patient</source>
+            <translation type="unfinished">l'aiguille est encore dans le corps : retirez-la, puis tournez le patient</translation>
+        </message>
+        <message>
+            <source>coagulation checked: INR {inr:g} (at most {most:g}), platelets {platelets:g} · 10⁹/l (at least {least:g})</source>
+            <translation type="unfinished">coagulation vérifiée : INR {inr:g} (au plus {most:g}), plaquettes {platelets:g} · 10⁹/l (au moins {least:g})</translation>
+        </message>
+        <message>
+            <source>the exercise does not have the patient turned</source>
+            <translation type="unfinished">dans l'exercice, le patient n'est pas tourné</translation>
+        </message>
+        <message>
+            <source>Checklist before the needle</source>
+            <translation type="unfinished">Liste de contrôle avant l'aiguille</translation>
+        </message>
+        <message>
+            <source>Patient turned after</source>
+            <translation type="unfinished">Patient tourné après</translation>
+        </message>
+        <message>
+            <source>What may be done in its place</source>
+            <translation type="unfinished">Ce qui peut être fait à la place</translation>
+        </message>
+        <message>
+            <source>Give more (Alt+J)</source>
+            <translation type="unfinished">En donner plus (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Needle out: turn the patient (Alt+J)</source>
+            <translation type="unfinished">Aiguille retirée : tourner le patient (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Ask for consent (J)</source>
+            <translation type="unfinished">Demander le consentement (J)</translation>
+        </message>
+        <message>
+            <source>Check coagulation (J)</source>
+            <translation type="unfinished">Vérifier la coagulation (J)</translation>
+        </message>
+        <message>
+            <source>Turn the patient (J)</source>
+            <translation type="unfinished">Tourner le patient (J)</translation>
+        </message>
+        <message>
+            <source>The patient is turned: Enter ends the attempt</source>
+            <translation type="unfinished">Le patient est tourné : Entrée termine l'essai</translation>
+        </message>
+        <message>
+            <source>Needle out: turn the patient (J)</source>
+            <translation type="unfinished">Aiguille retirée : tourner le patient (J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw out and turn the patient (Alt+J)</source>
+            <translation type="unfinished">Mandrin retiré (J) pour un autre ; ou retirer l'aiguille et tourner le patient (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw the needle out</source>
+            <translation type="unfinished">Mandrin retiré (J) pour un autre ; ou retirer l'aiguille</translation>
+        </message>
+        <message>
+            <source>Turn the patient puncture side down (J)</source>
+            <translation type="unfinished">Tourner le patient du côté de la ponction (J)</translation>
+        </message>
+        <message>
+            <source>Draw the needle out, then take the next one (J); or give more (Alt+J)</source>
+            <translation type="unfinished">Retirer l'aiguille, puis prendre la suivante (J) ; ou en donner plus (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Steps that it teaches</source>
+            <translation type="unfinished">Étapes enseignées</translation>
+        </message>
+        <message>
+            <source>another step in its place</source>
+            <translation type="unfinished">une autre étape à sa place</translation>
+        </message>
+        <message>
+            <source>
+  teaches: {steps}</source>
+            <translation type="unfinished">
+  enseigne : {steps}</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung. Choose the path first: place the entry (E, or the map of entries in the panel Plan) so that it meets no rib, little lung and no fissure. Then ask for consent and check coagulation (J, J), give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open. At the end draw the needle out and have the patient turned puncture side down at once (J).</source>
+            <translation type="unfinished">Prélevez deux échantillons du nodule du poumon droit. Choisissez d'abord la trajectoire : placez le point d'entrée (E, ou la carte des entrées du panneau Plan) de sorte qu'elle ne rencontre aucune côte, peu de poumon et aucune scissure. Demandez ensuite le consentement et vérifiez la coagulation (J, J), donnez l'anesthésie locale juste avant la plèvre (J), retirez cette aiguille et prenez l'aiguille externe (J). Faites une pause avant la plèvre, franchissez-la d'un seul geste pendant que le nodule est au repos, et arrêtez la pointe au bord proche du nodule. Puis mandrin retiré, pistolet introduit (J), tir (Ctrl+J), pistolet retiré, mandrin remis ; tournez l'encoche et prélevez encore. Gardez l'embase fermée : l'air entre là où elle est ouverte. À la fin, retirez l'aiguille et faites tourner le patient aussitôt du côté de la ponction (J).</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, ask for consent and check coagulation (J, J), local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). At the end draw the needle out and have the patient turned puncture side down (Alt+J), and scan once more.</source>
+            <translation type="unfinished">Prélevez deux échantillons du nodule du poumon droit par scans de contrôle : marquez le point d'entrée d'après la grille, demandez le consentement et vérifiez la coagulation (J, J), anesthésie locale jusqu'à la plèvre (J), l'aiguille externe (J), une pause, et une seule traversée de la plèvre. Mandrin retiré, pistolet introduit (J), tir (Ctrl+J), pistolet retiré, mandrin remis. Refaites un scanner (S) et surveillez le moniteur et le patient : le poumon peut se rétracter ou saigner. Dites-le dès que vous le voyez (Shift+J), choisissez ce qu'il faut faire, et faites-le (Ctrl+Shift+J). À la fin, retirez l'aiguille, faites tourner le patient du côté de la ponction (Alt+J) et refaites un scanner.</translation>
+        </message>
+        <message>
+            <source>Ablate the lesion in the liver with 5 mm of liver about it. Ask for consent and check coagulation (J, J). Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J), and have the patient turned puncture side down (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
+            <translation type="unfinished">Détruisez la lésion du foie avec 5 mm de foie autour d'elle. Demandez le consentement et vérifiez la coagulation (J, J). Amenez l'aiguille au premier endroit et laissez-y l'électrode (J), retirez l'aiguille de la peau, tournez-la vers le trajet suivant, et ainsi de suite pour les trois. Puis démarrez le générateur (J) et faites tourner le patient du côté de la ponction (J). Les zones résultent de l'endroit où les électrodes se trouvent réellement : 40 W pendant 20 min sont prévus.</translation>
         </message>
     </context>
 </TS>
