@@ -24124,5 +24124,17 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <source>Ablate the lesion in the liver with 5 mm of liver about it. Ask for consent and check coagulation (J, J). Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J), and have the patient turned puncture side down (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
             <translation type="unfinished">Abladieren Sie die Läsion in der Leber mit 5 mm Leber ringsum. Holen Sie die Einwilligung ein und prüfen Sie die Gerinnung (J, J). Bringen Sie die Nadel an die erste Stelle und lassen Sie die Elektrode dort (J), ziehen Sie die Nadel wieder aus der Haut, drehen Sie sie auf den nächsten Pfad, und so fort für alle drei. Dann starten Sie den Generator (J) und lassen den Patienten auf die Einstichseite drehen (J). Die Zonen folgen daraus, wo die Elektroden wirklich liegen: Geplant sind 40 W für 20 min.</translation>
         </message>
+        <message>
+            <source>Consent or coagulation was not checked before the needle went in.</source>
+            <translation type="unfinished">Einwilligung oder Gerinnung wurde nicht geprüft, bevor die Nadel eindrang.</translation>
+        </message>
+        <message>
+            <source>Nobody turned the patient after the needle was out.</source>
+            <translation type="unfinished">Niemand drehte den Patienten, nachdem die Nadel heraus war.</translation>
+        </message>
+        <message>
+            <source>The patient was turned {seconds:.0f} s after the needle was out.</source>
+            <translation type="unfinished">Der Patient wurde {seconds:.0f} s, nachdem die Nadel heraus war, gedreht.</translation>
+        </message>
     </context>
 </TS>

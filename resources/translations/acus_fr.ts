@@ -24124,5 +24124,17 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <source>Ablate the lesion in the liver with 5 mm of liver about it. Ask for consent and check coagulation (J, J). Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J), and have the patient turned puncture side down (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
             <translation type="unfinished">Détruisez la lésion du foie avec 5 mm de foie autour d'elle. Demandez le consentement et vérifiez la coagulation (J, J). Amenez l'aiguille au premier endroit et laissez-y l'électrode (J), retirez l'aiguille de la peau, tournez-la vers le trajet suivant, et ainsi de suite pour les trois. Puis démarrez le générateur (J) et faites tourner le patient du côté de la ponction (J). Les zones résultent de l'endroit où les électrodes se trouvent réellement : 40 W pendant 20 min sont prévus.</translation>
         </message>
+        <message>
+            <source>Consent or coagulation was not checked before the needle went in.</source>
+            <translation type="unfinished">Le consentement ou la coagulation n'a pas été vérifié avant l'entrée de l'aiguille.</translation>
+        </message>
+        <message>
+            <source>Nobody turned the patient after the needle was out.</source>
+            <translation type="unfinished">Personne n'a tourné le patient après le retrait de l'aiguille.</translation>
+        </message>
+        <message>
+            <source>The patient was turned {seconds:.0f} s after the needle was out.</source>
+            <translation type="unfinished">Le patient a été tourné {seconds:.0f} s après le retrait de l'aiguille.</translation>
+        </message>
     </context>
 </TS>
