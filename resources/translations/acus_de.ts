@@ -24059,8 +24059,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Mehr geben (Alt+J)</translation>
         </message>
         <message>
-            <source>Needle out: turn the patient (Alt+J)</source>
-            <translation type="unfinished">Nadel heraus: Patienten drehen (Alt+J)</translation>
+            <source>Turn the patient (Alt+J)</source>
+            <translation type="unfinished">Patienten drehen (Alt+J)</translation>
         </message>
         <message>
             <source>Ask for consent (J)</source>

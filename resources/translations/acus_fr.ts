@@ -24059,8 +24059,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En donner plus (Alt+J)</translation>
         </message>
         <message>
-            <source>Needle out: turn the patient (Alt+J)</source>
-            <translation type="unfinished">Aiguille retirée : tourner le patient (Alt+J)</translation>
+            <source>Turn the patient (Alt+J)</source>
+            <translation type="unfinished">Tourner le patient (Alt+J)</translation>
         </message>
         <message>
             <source>Ask for consent (J)</source>

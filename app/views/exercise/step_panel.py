@@ -116,7 +116,7 @@ def other_words(step: Step | None) -> str:
     """Say what the button of another step does."""
     if step is Step.INJECT:
         return tr("Give more (Alt+J)")
-    return "" if step is None else tr("Needle out: turn the patient (Alt+J)")
+    return "" if step is None else tr("Turn the patient (Alt+J)")
 
 
 def shared_words(step: Step | None) -> str:
