@@ -99,6 +99,8 @@ class ScriptedAnswers:
     _aspirated_mm: float | None = None
     _scans: int = 0
     _next: float = 0.0
+    _heard: float | None = None
+    _said: bool = False
 
     @classmethod
     def of(cls, skill: str, seed: int = 0) -> ScriptedAnswers | None:
@@ -122,6 +124,19 @@ class ScriptedAnswers:
             reading.rim_mm if reading.rim_mm >= least else 0.0,
             reading.blood_mm if reading.blood_mm >= least else 0.0,
         )
+
+    def notices(self, monitor: Vitals, now: float) -> bool:
+        """Return whether the hand says at `now` [s] that something is wrong, once for each cough.
+
+        Who answers rightly hears it at once, before any scan can show why.
+        """
+        if not monitor.coughs:
+            self._heard, self._said = None, False
+            return False
+        self._heard = now if self._heard is None else self._heard
+        due = self.manner.is_right and now >= self._heard + self.manner.delay
+        said, self._said = self._said, self._said or due
+        return due and not said
 
     def rows(self, monitor: Vitals) -> tuple[GuidelineRow, ...]:
         """Return the rows of the table of answers that hold by what was seen."""
@@ -231,7 +246,11 @@ class ScriptedPatient:
             self.answers.see(reading, now)
             data = {"number": scan.number, **scan.data()}
             events.append(Event(now, SCAN, "", data))
-        answer = self.answers.look(self.happens.state.vitals, now)
+        monitor = self.happens.state.vitals
+        if self.answers.notices(monitor, now):
+            said = self.happens.notice()
+            events.append(Event(now, KIND, said.words, said.data))
+        answer = self.answers.look(monitor, now)
         if answer is not None:
             given = self.happens.answer(answer)
             events.append(Event(now, KIND, given.words, given.data))

@@ -519,6 +519,8 @@ class Trainer:
             self._keep(happening, now)
         if self._answers is not None and running.acts:
             self._look_at_scans(self._answers, seen, is_outer, now)
+            if self._answers.notices(happens.state.vitals, now):
+                self._keep(happens.notice(), now)
             answer = self._answers.look(happens.state.vitals, now)
             if answer is not None:
                 self._keep(happens.answer(answer), now)
