@@ -7,7 +7,6 @@ follow each other at a person's pace. Nobody else's hand has these phases.
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
@@ -80,7 +79,10 @@ class ScriptedSteps:
         return bool(self._left)
 
     def look(self, phase: float, now: float, perform: Perform) -> None:
-        """Do what is due at `now` [s] in a phase of the script; what is refused is left out."""
+        """Do what is due at `now` [s] in a phase of the script.
+
+        What is refused is left out; the checklist is tried again, as it may be too early for it.
+        """
         if phase != self.phase:
             self.phase, self._left = phase, [*self._left_of_checks(), *self._of(phase)]
             self._next = now + PACE
@@ -88,8 +90,11 @@ class ScriptedSteps:
             return
         step, setting, notch_deg = self._left.pop(0)
         self._next = now + PACE
-        with suppress(ProcedureNotPossibleError):
+        try:
             perform(step, setting, notch_deg)
+        except ProcedureNotPossibleError:
+            if step in CHECKS:
+                self._left.insert(0, (step, setting, notch_deg))
 
     def _left_of_checks(self) -> list[tuple[Step, int, float]]:
         """Return what of the checklist is to be done before all else."""

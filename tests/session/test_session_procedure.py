@@ -30,6 +30,8 @@ from app.session.procedure import (
     perform,
 )
 from app.session.procedure_marks import marks_of
+from app.session.scripted_steps import ScriptedSteps
+from app.simulation.procedure_script import StopPhase
 from tests.field_rig import ball, beyond, field_of_shapes
 
 TARGET = np.array([20.0, 40.0, 20.0])
@@ -333,3 +335,19 @@ def test_an_exercise_without_checklist_and_turning_keeps_nothing_of_them() -> No
     marks = marks_of(events, samples(), ())
     assert marks is not None
     assert marks.turning is None
+
+
+def test_a_script_tries_the_checklist_again_until_the_attempt_has_begun() -> None:
+    steps, done_at = ScriptedSteps(TURNED), list[tuple[float, Step]]()
+
+    def act(step: Step, throw: int, deg: float, now: float) -> ProcedureState:
+        if now < 5.0:
+            raise ProcedureNotPossibleError("not begun")
+        done_at.append((now, step))
+        return ProcedureState.at_begin(TURNED)
+
+    for now in np.arange(0.0, 20.0, 0.1).tolist():
+        phase = 1.0 if now < 12.0 else float(StopPhase.INJECT)
+        steps.look(phase, now, lambda *how, now=now: act(*how, now))
+    assert [step for _, step in done_at] == [Step.CONSENT, Step.COAGULATION, Step.INJECT]
+    assert 5.0 <= done_at[0][0] < 6.5
