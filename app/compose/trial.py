@@ -21,7 +21,7 @@ from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -268,13 +268,17 @@ class Trials:
     def _dial(self, hand: PlayedHand | None) -> float:
         return self._exercise.assistance if hand is None or hand.dial is None else hand.dial
 
-    def _whole(self, skill: str, seed: int, *of_hand: Any) -> AttemptResult:
+    def _whole(
+        self,
+        skill: str,
+        seed: int,
+        hand: PlayedHand | None = None,
+        watch: Callable[[FloatArray], object] = lambda row: None,
+    ) -> AttemptResult:
         """Do it with a whole trainer, which judges what is not judged here."""
-        of_trainer = self._risks, False, self._tissues, self._script
-        of_scans = self._pictures
-        return attempt(
-            self._exercise, self._placed, skill, seed, *of_trainer, *of_hand, scans=of_scans
-        )
+        risks, tissues, script = self._risks, self._tissues, self._script
+        on = self._exercise, self._placed, skill, seed
+        return attempt(*on, risks, False, tissues, script, hand, watch, self._pictures)
 
     def _judged(
         self, rows: FloatArray, begin: float, dial: float, skill: str = "", seed: int = 0
