@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.compose.exercise_field import tissues_of
+from app.compose.exercise_field import tissues_of, trial_plan
 from app.compose.trial import Trials, attempt
 from app.exercises.library import load_exercise
-from app.exercises.scene import device_of, plan_of
+from app.exercises.scene import device_of
 from app.planning.placement import PlacedPlan
 from app.planning.sampling import plan_sample
 from app.session.procedure import KIND, Step
@@ -25,7 +25,7 @@ OF_ONE_SAMPLE = ["stylet_out", "gun_in", "fire", "gun_out", "stylet_in"]
 @cache
 def biopsy() -> Any:
     exercise = load_exercise("lung-biopsy")
-    plan = plan_of(exercise)
+    plan = trial_plan(exercise)
     placed = PlacedPlan.of(plan, exercise.placement.placement(), device_of(exercise).fulcrum)
     field = tissues_of(exercise, plan)
     trials = Trials(exercise, placed, tissues=field)
@@ -38,7 +38,8 @@ def test_the_steps_of_an_expert_are_all_done_in_their_order() -> None:
         seen.exercise, seen.placed, "expert", 1, tissues=seen.field, script=Script.QUICK
     )
     steps = [event.data["step"] for event in result.events if event.kind == KIND]
-    assert steps == ["", "inject", "take_needle", *OF_ONE_SAMPLE, *OF_ONE_SAMPLE]
+    before = ["consent", "coagulation", "inject", "take_needle"]
+    assert steps == ["", *before, *OF_ONE_SAMPLE, *OF_ONE_SAMPLE, "roll_over"]
     assert result.score is not None
     values = {row.name: row.value for row in result.score.rows}
     assert values["diagnostic_samples"] == 2.0
@@ -46,6 +47,9 @@ def test_the_steps_of_an_expert_are_all_done_in_their_order() -> None:
     assert values["anaesthetic_gap"] == pytest.approx(1.5, abs=1.2)
     assert values["pleural_crossings"] == 1.0, "the needle for local anaesthetic is not counted"
     assert values["skin_passes"] == 1.0
+    assert values["checklist_done"] == 100.0
+    assert values["rollover_time"] == pytest.approx(1.5, abs=1.0)
+    assert values["angle_error"] < 3.0, "of the needle at its last sample, not of one drawn out"
     assert values["hub_open_time"] == pytest.approx(4.8, abs=0.3)
 
 

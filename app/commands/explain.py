@@ -116,6 +116,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
                     scale=-scale,
                 )
             )
+    lines += taught_lines(document["teaches"])
     lines += complication_lines(document["complications"])
     if document["ablation"] is not None:
         lines += ablation_lines(document["ablation"])
@@ -133,6 +134,14 @@ def _lines(document: dict[str, Any]) -> list[str]:
             sentence("\n  refused {kind}: {reason}", kind=file["kind"], reason=file["reason"])
         )
     return lines
+
+
+def taught_lines(names: list[str]) -> list[str]:
+    """Return which steps of an intervention an exercise teaches."""
+    from app.exercises.taught import NOTHING, STEPS
+
+    words = [words for name, words, _ in STEPS if name in names] or [NOTHING]
+    return [sentence("\n  teaches: {steps}", steps=listed(words))]
 
 
 def complication_lines(document: dict[str, Any] | None) -> list[str]:

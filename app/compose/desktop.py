@@ -32,7 +32,9 @@ if TYPE_CHECKING:
     from app.compose.watchers import RunWatcher
     from app.core.arrays import FloatArray
     from app.device.commissioning.bench import Bench
+    from app.imaging.field import TissueField
     from app.mechanisms.profile import DeviceProfile
+    from app.session.scripted_answers import Pictures
     from app.tracking.cameras.settings import CameraSettings
     from app.tracking.inspection import Inspection
     from app.tracking.needle_tracker import StereoAbilities
@@ -240,6 +242,7 @@ class Desktop:
             hand_seed=randbits(32) if self._seed is None else None,
             script=None if shown is None else shown.script(setup.placed),
             led=self._led,
+            pictures=_pictures(exercise, setup.volume, tissues) if skill is not None else None,
         )
         with moving(progress.part(0.6, 0.8), _compiling):
             rig = build_rig(trainer)
@@ -253,6 +256,16 @@ class Desktop:
         for watcher in self.watchers:
             watcher.began(run, setup.volume)
         return run
+
+
+def _pictures(
+    exercise: Exercise, volume: Volume | None, tissues: TissueField | None
+) -> Pictures | None:
+    """Return what makes the control scans that a scripted hand answers complications by."""
+    asked = exercise.procedure
+    if volume is None or asked is None or asked.complications is None:
+        return None
+    return lambda scan: scan.picture(volume, tissues)
 
 
 def _compiling(waited: float) -> str:

@@ -12,7 +12,7 @@ from app.compose.exercise_ct import load_field, read_ct
 from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.errors import ExerciseError
-from app.exercises.parts import LayersFrom, TissueSource
+from app.exercises.parts import LayersFrom, OwnPlan, TissueSource
 from app.exercises.scene import device_of, draft_of, placed_plan_of, plan_of
 from app.exercises.schema import Exercise
 from app.exercises.tissue import with_layers_met, with_tissue
@@ -38,11 +38,14 @@ _HAS_LAYERS: Final = sentence("layers: the exercise has them")
 
 
 def trial_plan(exercise: Exercise) -> Plan:
-    """Return the plan that trials follow; where the student plans, the phantom's own entry.
+    """Return the plan that trials follow; where the student plans, the trials' or phantom's entry.
 
     Raises:
         ExerciseError: if the student plans on a CT that is no phantom.
     """
+    own = exercise.plan
+    if isinstance(own, OwnPlan) and own.trial_entry_mm is not None:
+        return Plan(np.array(own.trial_entry_mm), np.array(own.target_mm), exercise.id)
     if exercise.is_own_plan and exercise.ct.phantom is not None:
         return plan_of(exercise.model_copy(update={"plan": "phantom_default"}))
     return plan_of(exercise)

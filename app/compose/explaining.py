@@ -21,6 +21,7 @@ from app.exercises.scene import (
     placed_plan_of,
 )
 from app.exercises.schema import Exercise
+from app.exercises.taught import taught
 from app.exercises.touching import check_touch
 from app.mechanisms.profile import DeviceProfile
 from app.scoring.complications.course import BLEEDS, DRAINED
@@ -29,7 +30,7 @@ from app.scoring.complications.risk import calibrated
 from app.scoring.odds import HUO, ZHU
 from app.scoring.pass_line import pass_lines
 from app.session.ablation import AblationState
-from app.session.complications import ComplicationCase, along_the_plan
+from app.session.complication_case import ComplicationCase, along_the_plan
 from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
 
@@ -66,6 +67,7 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     document["touch"] = _touch(exercise, profile)
+    document["teaches"] = list(taught(exercise))
     document["complications"] = _complications(exercise, patient)
     document["ablation"] = planned_ablation(exercise, profile, bound)
     document["pass_lines"] = pass_lines(exercise.tolerances)

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from app.planning.placement import PlacedPlan
     from app.scoring.result import Score
     from app.session.risks import Risk
+    from app.session.scripted_answers import Pictures
 
 
 def risks_of(exercise: Exercise, progress: Progress | None = None) -> tuple[Risk, ...]:
@@ -96,11 +97,13 @@ class Resolved:
         exercise: with its layers and its tissue.
         placed: its plan in the robot's frame.
         tissues: field of the patient; None without one.
+        pictures: makes control scans, where complications are seen in them; else None.
     """
 
     exercise: Exercise
     placed: PlacedPlan
     tissues: TissueField | None
+    pictures: Pictures | None = None
 
     @classmethod
     def of(cls, exercise: Exercise) -> Self:
@@ -114,7 +117,11 @@ class Resolved:
             exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
         tissues = tissues_of(exercise, placed.plan)
         exercise, _ = resolve_tissue(exercise, placed, tissues)
-        return cls(exercise, placed, tissues)
+        asked, pictures = exercise.procedure, None
+        if asked is not None and asked.complications is not None:
+            volume = read_ct(exercise)
+            pictures = lambda scan: scan.picture(volume, tissues)  # noqa: E731
+        return cls(exercise, placed, tissues, pictures)
 
 
 class Attempted(Protocol):
@@ -176,7 +183,7 @@ def skill_outcomes(
         Cancelled: if `progress` was cancelled.
     """
     on = Resolved.of(exercise)
-    trials = Trials(on.exercise, on.placed, risks, on.tissues, script)
+    trials = Trials(on.exercise, on.placed, risks, on.tissues, script, pictures=on.pictures)
     return run_trial(skills, trials.score, seeds, progress)
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from app.core.arrays import read_only
 from app.core.parameters import Stage
 from app.core.units import MILLIMETRE
 from app.exercises.ablation import AblationPart, electrode_plans
@@ -15,7 +18,7 @@ from app.planning.placement import PlacedPlan
 from app.session.scripted_steps import sampling_time
 from app.simulation.electrode_script import one_after_another
 from app.simulation.hands import HANDS, SUFFIX, write_hand_script
-from app.simulation.procedure_script import Stops, with_stops
+from app.simulation.procedure_script import StopPhase, Stops, with_stops, withdrawn
 from app.simulation.skills import find_skill
 from app.simulation.touching import write_touch_script
 from app.simulation.trainee import script_stage, trainee_stage, write_script
@@ -77,8 +80,15 @@ def _with_electrodes(
     ]
     axes = np.array([plan.axis for plan in plans])
     script = one_after_another(scripts, axes, placed.axis)
+    asked = exercise.procedure
+    if asked is not None and asked.rollover is not None:
+        rows = withdrawn(script.rows, TURNING, script.row, StopPhase.TURN)
+        script = replace(script, rows=read_only(rows))
     return script_stage(script, placed.axis, holds_at=placed.length if holds else None)
 
+
+TURNING = 4.0
+"""A script stays so long with the needle out, until the patient is turned [s]."""
 
 SHORT_OF = 1.5 * MILLIMETRE
 """Local anaesthetic is given so far before the membrane, and the way in paused twice so far."""
@@ -101,4 +111,5 @@ def _stops(
         anaesthetic=None if wall is None or part.anaesthetic is None else wall - SHORT_OF,
         before=None if wall is None else wall - 2.0 * SHORT_OF,
         sampling=sampling_time(part),
+        turning=0.0 if part.rollover is None else TURNING,
     )

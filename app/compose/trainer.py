@@ -51,6 +51,7 @@ from app.session.fixes import DepthTrust
 from app.session.recording import Recording
 from app.session.replay import ReplayReport, is_simulated, replay
 from app.session.risks import Risk
+from app.session.scripted_answers import Pictures
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.simulation.plant import initial_plant, plant_stage
@@ -96,6 +97,7 @@ class TrainerSetup:
         risks: structures that the needle has to keep away from.
         tissues: field of the patient: tells what the needle met, and is what the loop looks into
             where the exercise's tissue is the field; None for none.
+        pictures: makes the control scans that a scripted hand reads; None leaves it the monitor.
         led: whether another program leads the hand step by step, as the arm's demonstration does.
         hand_seed: of where a simulated hand begins and how it trembles, which attempts record;
             None takes `seed`.
@@ -117,6 +119,7 @@ class TrainerSetup:
     hand_seed: int | None = None
     script: TraineeScript | None = None
     led: bool = False
+    pictures: Pictures | None = None
 
     @property
     def by_program(self) -> bool:
@@ -316,6 +319,7 @@ def _build_rig(
         beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
         simulated=robot is None and real is None,
         by_program=setup.by_program,
+        pictures=setup.pictures,
         scripted=setup.skill or "",
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)

@@ -21,7 +21,7 @@ from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -52,18 +52,19 @@ from app.exercises.guidance import Purpose
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
 from app.session.ablation import AblationState
-from app.session.complications import ComplicationCase
+from app.session.complication_case import ComplicationCase
+from app.session.control_scan import Taking, scan_marks
 from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
 from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.observation import GRACE
 from app.session.planned import judged_plan_of
-from app.session.procedure import marks_of
+from app.session.procedure_marks import marks_of
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
-from app.session.scripted_answers import ScriptedPatient
+from app.session.scripted_answers import Pictures, ScriptedPatient
 from app.session.scripted_steps import StepsDone, steps_of_rows
 from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
@@ -109,6 +110,7 @@ def attempt(
     script: Script = Script.HAND,
     hand: PlayedHand | None = None,
     watch: Callable[[FloatArray], object] = lambda row: None,
+    scans: Pictures | None = None,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
 
@@ -122,6 +124,7 @@ def attempt(
         pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
         script: how the trainee behaves: as people do, or as in a demonstration.
         hand: plays in place of the skill's.
+        scans: makes the control scans that the hand reads; None leaves it the monitor.
         watch: told the loop's state at each look, as the attempt goes on; what it is told is the
             loop's own memory.
 
@@ -140,6 +143,7 @@ def attempt(
         clock=clock,
         tissues=tissues,
         script=None if hand is None else hand.script,
+        pictures=scans,
     )
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
@@ -188,6 +192,7 @@ class Trials:
         script: how the trainees behave: as people do, or as in a demonstration.
         aimed: plan as robot and hand have it, where the registration errs; None for `placed`.
         noise: factor on the noise of the cameras.
+        pictures: makes the control scans that hands read; None leaves them the monitor.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
@@ -202,8 +207,9 @@ class Trials:
         script: Script = Script.HAND,
         aimed: PlacedPlan | None = None,
         noise: float = 1.0,
+        pictures: Pictures | None = None,
     ) -> None:
-        self._script = script
+        self._script, self._pictures = script, pictures
         self._aimed = placed if aimed is None else aimed
         self._only_here = aimed is not None or noise != 1.0
         self._exercise, self._placed, self._risks = exercise, placed, risks
@@ -262,10 +268,17 @@ class Trials:
     def _dial(self, hand: PlayedHand | None) -> float:
         return self._exercise.assistance if hand is None or hand.dial is None else hand.dial
 
-    def _whole(self, skill: str, seed: int, *of_hand: Any) -> AttemptResult:
+    def _whole(
+        self,
+        skill: str,
+        seed: int,
+        hand: PlayedHand | None = None,
+        watch: Callable[[FloatArray], object] = lambda row: None,
+    ) -> AttemptResult:
         """Do it with a whole trainer, which judges what is not judged here."""
-        of_trainer = self._risks, False, self._tissues, self._script
-        return attempt(self._exercise, self._placed, skill, seed, *of_trainer, *of_hand)
+        risks, tissues, script = self._risks, self._tissues, self._script
+        on = self._exercise, self._placed, skill, seed
+        return attempt(*on, risks, False, tissues, script, hand, watch, self._pictures)
 
     def _judged(
         self, rows: FloatArray, begin: float, dial: float, skill: str = "", seed: int = 0
@@ -289,6 +302,7 @@ class Trials:
             touches=went.touches,
             met=met,
             planned=self._planned,
+            scans=() if steps is None else scan_marks(steps.events),
             procedure=None if steps is None else marks_of(steps.events, samples, met, self._placed),
         )
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
@@ -299,9 +313,17 @@ class Trials:
             return None
         phases = rows[:, sv.TRAINEE_PHASE]
         is_assessment = self._exercise.purpose is Purpose.ASSESSMENT
-        patient = ScriptedPatient.of(self._case, skill, 0 if is_assessment else seed)
+        drawn = 0 if is_assessment else seed
+        patient = ScriptedPatient.of(self._case, skill, drawn, self._taking(), self._pictures)
         begin = self._placed, self._tissues, self._ablation, patient
         return steps_of_rows(part, samples, phases, *begin)
+
+    def _taking(self) -> Taking:
+        """Return the scan by which a hand watches the patient: as proposed, about the target."""
+        guidance, needle = self._exercise.guidance, self._exercise.needle
+        order = guidance.order(float(self._placed.plan.target_mm[2]))
+        choice = replace(guidance.choice, leaves=False)
+        return Taking(order, guidance, choice, needle.gauge, needle.tip)
 
     def truth(self, rows: FloatArray) -> Samples:
         """Return the needle as it truly was at each look, whatever the cameras saw of it."""

@@ -142,6 +142,8 @@ def virtual_trainer(
         trust=DepthTrust(profile.hand.depth_speed),
         start=Start.SIMULATED,
         beginnings=beginnings,
+        scripted=setup.skill or "",
+        pictures=setup.pictures,
     )
     loop.open()
     try:

@@ -4,15 +4,17 @@ from collections.abc import Mapping
 from dataclasses import fields
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import (
     AfterValidator,
     Discriminator,
     Field,
     GetJsonSchemaHandler,
+    SerializerFunctionWrapHandler,
     Tag,
     field_validator,
+    model_serializer,
     model_validator,
 )
 from pydantic.json_schema import JsonSchemaValue
@@ -165,10 +167,29 @@ class OwnPlan(Strict):
     Attributes:
         own: says so.
         target_mm: DICOM LPS [mm]; None for the lesion of the phantom.
+        trial_entry_mm: entry of those who try the exercise without a window, which no student is
+            shown; with `target_mm`. None for the phantom's own entry, to its own lesion.
     """
 
     own: Literal[True]
     target_mm: Triple | None = None
+    trial_entry_mm: Triple | None = None
+
+    @model_serializer(mode="wrap")
+    def _as_before(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out what is younger than the rest and not asked for: older records stay equal."""
+        document: dict[str, Any] = handler(self)
+        if self.trial_entry_mm is None:
+            document.pop("trial_entry_mm", None)
+        return document
+
+    @model_validator(mode="after")
+    def _trial_has_both_ends(self) -> Self:
+        if self.trial_entry_mm is not None and self.target_mm is None:
+            raise ValueError(
+                sentence("plan: trial_entry_mm goes with target_mm: give both, or neither")
+            )
+        return self
 
 
 OF_LUNG_PATHS: Final = frozenset(

@@ -5,10 +5,15 @@ Each is a part of its own; what an exercise does not name is neither simulated n
 
 from __future__ import annotations
 
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import (
+    Field,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
 
 from app.core.arrays import FloatArray
 from app.core.configuration import Strict
@@ -33,6 +38,8 @@ OF_PROCEDURES: Final = {
     "grid": frozenset({"entry_mark_error"}),
     "biopsy": frozenset({"diagnostic_samples", "lesion_in_sample", "throw_hits", "hub_open_time"}),
     "complications": frozenset({"complication_noticed", "complication_answer"}),
+    "checklist": frozenset({"checklist_done"}),
+    "rollover": frozenset({"rollover_time"}),
 }
 """Metrics that a part of the procedure alone can give."""
 
@@ -162,6 +169,50 @@ class GridPart(Strict):
         return GridSpec((x, y, z), side, self.lines, self.spacing_mm, self.length_mm)
 
 
+MOST_INR: Final = 1.8
+LEAST_PLATELETS: Final = 50.0
+"""Beyond these coagulation is corrected before a procedure with a high risk of bleeding: INR 1.5 to
+1.8 or less, platelets of 50 · 10⁹/l or more (Society of Interventional Radiology 2019)."""
+
+
+class ChecklistPart(Strict):
+    """What is checked before any needle: consent, and the patient's coagulation.
+
+    Attributes:
+        inr: of the patient; no needle goes in above `MOST_INR`.
+        platelets: of the patient [10⁹/l]; nor below `LEAST_PLATELETS`.
+    """
+
+    inr: Annotated[float, Field(gt=0.0)] = 1.0
+    platelets: Annotated[float, Field(gt=0.0, le=2000.0)] = 230.0
+
+    @model_validator(mode="after")
+    def _within_limits(self) -> ChecklistPart:
+        if self.inr > MOST_INR:
+            raise ValueError(
+                sentence(
+                    "inr {inr:g}: above {most:g} coagulation is corrected before a needle goes in; "
+                    "give a patient with {most:g} or less",
+                    inr=self.inr,
+                    most=MOST_INR,
+                )
+            )
+        if self.platelets < LEAST_PLATELETS:
+            raise ValueError(
+                sentence(
+                    "platelets {platelets:g} · 10⁹/l: below {least:g} they are given before a "
+                    "needle goes in; give a patient with {least:g} or more",
+                    platelets=self.platelets,
+                    least=LEAST_PLATELETS,
+                )
+            )
+        return self
+
+
+class RolloverPart(Strict):
+    """The patient is turned puncture side down once the needle is out."""
+
+
 class ProcedurePart(Strict):
     """What belongs to the intervention; None for each step that the exercise does without.
 
@@ -171,6 +222,8 @@ class ProcedurePart(Strict):
         biopsy: samples through a coaxial needle.
         complications: what can happen to the lung, and has to be noticed and answered.
         ablation: electrodes left in place one after another, then the generator.
+        checklist: consent and coagulation, before any needle.
+        rollover: the patient is turned puncture side down once the needle is out.
     """
 
     grid: GridPart | None = None
@@ -178,6 +231,28 @@ class ProcedurePart(Strict):
     biopsy: BiopsyPart | None = None
     complications: ComplicationsPart | None = None
     ablation: AblationPart | None = None
+    checklist: ChecklistPart | None = None
+    rollover: RolloverPart | None = None
+
+    @model_serializer(mode="wrap")
+    def _as_before(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out what is younger than the rest and not asked for: older records stay equal."""
+        document: dict[str, Any] = handler(self)
+        for name in ("checklist", "rollover"):
+            if getattr(self, name) is None:
+                document.pop(name, None)
+        return document
+
+    @model_validator(mode="after")
+    def _turned_after_something(self) -> ProcedurePart:
+        if self.rollover is not None and self.biopsy is None and self.ablation is None:
+            raise ValueError(
+                sentence(
+                    "procedure: rollover is after samples or an ablation: add biopsy or ablation, "
+                    "or leave it out"
+                )
+            )
+        return self
 
     @model_validator(mode="after")
     def _one_tool_at_a_time(self) -> ProcedurePart:
@@ -190,7 +265,7 @@ class ProcedurePart(Strict):
     @property
     def has_steps(self) -> bool:
         """Return whether anything is done during the attempt."""
-        return self.anaesthetic is not None or self.biopsy is not None
+        return any((self.anaesthetic, self.biopsy, self.checklist))
 
     @model_validator(mode="after")
     def _asks_for_something(self) -> ProcedurePart:

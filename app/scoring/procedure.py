@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isfinite
+from typing import Final
 
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
@@ -60,6 +61,38 @@ class SampleMark:
         _check(self.time, self.lesion_mm, self.aside_mm or 0.0)
 
 
+NOT_TURNED_S: Final = 600.0
+"""Counts as the time after which a patient was turned whom nobody turned."""
+
+
+@dataclass(frozen=True, slots=True)
+class TurningMark:
+    """How the patient was turned after the needle was out.
+
+    Attributes:
+        last: moment of the last sample, or of the ablation [s]; None without.
+        out: moment at which the needle had left the body for good [s]; None while it is in.
+        turned: moment at which the patient was turned [s]; None where nobody did.
+
+    Raises:
+        TrajectoryError: if a number is not finite.
+    """
+
+    last: float | None = None
+    out: float | None = None
+    turned: float | None = None
+
+    def __post_init__(self) -> None:
+        _check(self.last or 0.0, self.out or 0.0, self.turned or 0.0)
+
+    @property
+    def wait(self) -> float:
+        """Return how long it took from the needle's end in the body [s]."""
+        if self.turned is None or self.out is None:
+            return NOT_TURNED_S
+        return max(0.0, self.turned - self.out)
+
+
 @dataclass(frozen=True, slots=True)
 class ProcedureMarks:
     """What was done beside moving the needle.
@@ -74,6 +107,8 @@ class ProcedureMarks:
         complications: that happened, and what was done about them; None where none can.
         ablation: by the electrodes that were left in place; None where nothing was ablated.
         entry_error_mm: way along the skin from the planned to the marked entry; None without.
+        turning: of the patient, needle out; None where the exercise does not ask for it.
+        checked: share of the checklist that was done before any needle, 0 to 1.
     """
 
     deposits: tuple[Deposit, ...] = ()
@@ -83,6 +118,9 @@ class ProcedureMarks:
     met_before: tuple[Met, ...] = ()
     complications: ComplicationMarks | None = None
     ablation: AblationMark | None = None
+    entry_error_mm: float | None = None
+    turning: TurningMark | None = None
+    checked: float = 0.0
 
     def ablated(self) -> AblationMark:
         """Return what was ablated.
@@ -102,8 +140,6 @@ class ProcedureMarks:
             for one in self.met_before
             if one.by == BY_TIP and one.counts and (one.kind == TissueKind.LUNG or one.holds_target)
         )
-
-    entry_error_mm: float | None = None
 
 
 def _check(*numbers: float) -> None:

@@ -291,6 +291,9 @@ class Trajectory:
     def final(self) -> int:
         """Index of the sample that the result is read from: the last one with a measured depth.
 
+        Where the patient is turned at the end, the needle is out by then: it is read from where
+        the last sample was taken.
+
         Raises:
             MetricUnavailableError: if the needle was not in the body at the end, or not seen for
                 more than `LAST_SEEN` before it.
@@ -298,6 +301,10 @@ class Trajectory:
         self.insertions()
         body = self._in_body()
         end = int(np.flatnonzero(self.running | self.paused)[-1])
+        turning = None if self.procedure is None else self.procedure.turning
+        if turning is not None and turning.last is not None:
+            end = min(end, self.at(turning.last))
+            body = body & (np.arange(len(self)) <= end)
         if not body[end]:
             raise MetricUnavailableError(sentence("the needle was out of the body at the end"))
         seen = np.flatnonzero(self.depth_valid & body)

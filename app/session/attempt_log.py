@@ -23,7 +23,7 @@ from app.session.journal import Journal, Step, carry_out, sealing
 from app.session.machine import Attempt
 from app.session.planned import event_of as event_of_plan
 from app.session.planned import judged_plan_of
-from app.session.procedure import marks_of
+from app.session.procedure_marks import marks_of
 from app.session.recorder import Recorder
 from app.session.recording import Recording, deferred_inputs
 from app.session.result import AttemptResult

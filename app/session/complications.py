@@ -8,25 +8,17 @@ student yet is recorded and not told.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import dataclass, replace
-from math import ceil
-from typing import TYPE_CHECKING, Any, Final
+from typing import Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.errors import AcusError
-from app.core.events import Event
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
-from app.imaging.field.tissue_field import TissueField
-from app.imaging.inside import Inside, LungShape, lung_shape
-from app.planning.placement import PatientOrientation, PlacedPlan
+from app.imaging.inside import Inside
 from app.scoring.complications.answers import (
     ANSWER_WORDS,
-    ROWS,
     AnswerWorth,
     GuidelineRow,
     Kind,
@@ -43,22 +35,12 @@ from app.scoring.complications.course import (
     Vitals,
     vitals,
 )
-from app.scoring.complications.factors import SMALL_MM, THICK_GAUGE, Facts, Lying
+from app.scoring.complications.factors import THICK_GAUGE, Facts
 from app.scoring.complications.lots import Lots
-from app.scoring.complications.marks import ComplicationMarks, Demand, Given
 from app.scoring.complications.risk import calibrated
-from app.scoring.errors import TrajectoryError
-from app.scoring.odds import DEEP_MM
-from app.session.lung_watch import STEP_MM, LesionFacts, LungWatch, lesion_facts
+from app.session.complication_case import ComplicationCase, known_facts
+from app.session.lung_watch import STEP_MM, LungWatch
 from app.session.needle_now import NeedleNow
-from app.simulation.bound_field import BoundField
-
-if TYPE_CHECKING:
-    from app.exercises.procedure import ComplicationsPart
-    from app.exercises.schema import Exercise
-
-KIND: Final = "complication"
-"""Kind of the events."""
 
 VERSION: Final = 1
 
@@ -109,110 +91,11 @@ class ComplicationsState:
     noticed: int = 0
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ComplicationCase:
-    """What is the same in all attempts at an exercise.
-
-    Attributes:
-        part: what can happen.
-        placed: the plan.
-        field: of the patient's tissue.
-        bound: the same in world.
-        seed: of the exercise.
-        gauge: of the outer needle.
-        samples: whether the exercise takes samples, which then make the lung bleed.
-        shape: of the lung; None where there is none at the target.
-        lying: how the biopsied lung lies.
-        lesion: at the target; None where nobody labelled one.
-    """
-
-    part: ComplicationsPart
-    placed: PlacedPlan
-    field: TissueField
-    bound: BoundField
-    seed: int
-    gauge: int
-    samples: bool
-    shape: LungShape | None
-    lying: Lying | None
-    lesion: LesionFacts | None
-
-    @classmethod
-    def of(
-        cls, exercise: Exercise, placed: PlacedPlan, field: TissueField | None
-    ) -> ComplicationCase | None:
-        """Return that of an exercise; None where it asks for none, or there is no field.
-
-        Takes a second the first time.
-        """
-        procedure = exercise.procedure
-        if procedure is None or procedure.complications is None or field is None:
-            return None
-        down = placed.T_world_patient.inverse().rotate(np.array([0.0, 0.0, -1.0]))
-        target = placed.plan.target_mm
-        shape = lung_shape(field, target, down)
-        calibrated()  # not while an attempt runs
-        return cls(
-            part=procedure.complications,
-            placed=placed,
-            field=field,
-            bound=BoundField(field, placed.T_world_patient, placed.p_target),
-            seed=exercise.seed,
-            gauge=exercise.needle.gauge,
-            samples=procedure.biopsy is not None,
-            shape=shape,
-            lying=None if shape is None else lying_of(placed.placement.orientation, shape.is_left),
-            lesion=lesion_facts(field, target),
-        )
-
-
-def lying_of(orientation: PatientOrientation, is_left: bool) -> Lying:
-    """Return how a lung lies by how the patient does."""
-    if orientation is PatientOrientation.SUPINE:
-        return Lying.SUPINE
-    if orientation is PatientOrientation.PRONE:
-        return Lying.PRONE
-    down = (orientation is PatientOrientation.LEFT_DOWN) == is_left
-    return Lying.DOWN if down else Lying.UP
-
-
 def attempt_seed(session_id: str, is_assessment: bool) -> int:
     """Return the seed of an attempt: one for all in an assessment, else its own."""
     if is_assessment:
         return 0
     return int.from_bytes(hashlib.sha256(session_id.encode()).digest()[:4], "big")
-
-
-def known_facts(case: ComplicationCase, watch: LungWatch, thick: bool) -> Facts | None:
-    """Return what is known of an attempt by what its needles did; None without a puncture.
-
-    `thick`: whether the outer needle has punctured the pleura, and is a thick one.
-    """
-    if not watch.punctures:
-        return None
-    known = {"again": watch.punctures > 1, "thick": thick}
-    if case.part.emphysema is not None:
-        known["emphysema"] = case.part.emphysema
-    if watch.target_in_lung:
-        known["deep"] = watch.aerated_mm >= DEEP_MM
-    if case.lesion is not None and watch.target_in_lung:
-        known["small"] = case.lesion.diameter_mm < SMALL_MM
-        known["free"] = not case.lesion.touches
-    if watch.knows_lobes:
-        known["fissure"] = watch.fissures > 0
-    if watch.knows_bullae:
-        known["bulla"] = watch.bullae > 0
-    return Facts(case.lying, known)
-
-
-def along_the_plan(case: ComplicationCase) -> Facts | None:
-    """Return what would be known of a needle that goes along the plan once, to its target."""
-    plan = case.placed.plan
-    watch = LungWatch(case.field, plan.target_mm)
-    for share in np.linspace(0.001, 1.0, max(2, ceil(plan.length_mm))).tolist():
-        way = plan.target_mm - plan.entry_mm
-        watch.look(plan.entry_mm + share * way, share * plan.length_mm)
-    return known_facts(case, watch, case.gauge <= THICK_GAUGE)
 
 
 class Complications:
@@ -230,7 +113,7 @@ class Complications:
         self._seen: float | None = None
         self._facts: Facts | None = None
         self._probability = 0.0
-        self._thick_in = self._oxygen = False
+        self._thick_in = self._oxygen = self._rolled = False
         self._onset = {Kind.PNEUMOTHORAX: NEVER, Kind.BLEEDING: NEVER}
         self._leak: Leak | None = None
         self._bleeding: Bleeding | None = None
@@ -293,6 +176,12 @@ class Complications:
         """Take in that a sample was taken."""
         if self._case.samples and needle is not None:
             self._may_bleed(needle)
+
+    def rolled_over(self) -> None:
+        """Take in that the patient lies puncture side down: what leaks there stops, or slows."""
+        self._rolled = True
+        if self._leak is not None:
+            self._leak = self._leak.turned(self._clock)
 
     def notice(self) -> Happening:
         """Say that something is wrong."""
@@ -413,7 +302,8 @@ class Complications:
     def _begin_what_is_due(self) -> list[Happening]:
         found = []
         if self._leak is None and self._clock >= self._onset[Kind.PNEUMOTHORAX]:
-            self._leak = leak = Leak.of(self._lots, self._clock)
+            leak = Leak.of(self._lots, self._clock)
+            self._leak = leak = leak.turned(self._clock) if self._rolled else leak
             found.append(
                 self._happening(
                     ONSET_WORDS[Kind.PNEUMOTHORAX],
@@ -499,66 +389,3 @@ class Complications:
     def _happening(self, words: str, step: str, is_told: bool = False, **data: object) -> Happening:
         known: dict[str, object] = {"version": VERSION, "step": step, "patient_s": self._clock}
         return Happening(words, known | data, is_told)
-
-
-def marks_of_complications(
-    events: Iterable[Event], placed: PlacedPlan, until: float
-) -> ComplicationMarks | None:
-    """Return what scoring sees of complications; None where the record says that none can happen.
-
-    Damaged events are left out.
-
-    Args:
-        events: of the record.
-        placed: its plan, for where the patient lies.
-        until: end of the attempt [s].
-    """
-    found = [event for event in events if event.kind in (KIND, "scan")]
-    if not any(event.kind == KIND for event in found):
-        return None
-    begun: list[tuple[Kind, float]] = []
-    demands: list[Demand] = []
-    noticed: list[float] = []
-    given: list[Given] = []
-    shown: list[tuple[float, tuple[float, float, float]]] = []
-    for event in found:
-        data: dict[str, Any] = dict(event.data)
-        with suppress(AcusError, LookupError, TypeError, ValueError):
-            if event.kind == "scan":
-                shown.append((event.time, _displaced(data, placed)))
-            elif data["step"] == "onset":
-                begun.append((Kind(data["kind"]), event.time))
-            elif data["step"] == "stage":
-                row = ROWS[data["row"]]
-                demands.append(Demand(row.kind, row.name, row.severity, event.time))
-            elif data["step"] == "notice":
-                noticed.append(event.time)
-            elif data["step"] == "answer":
-                given += _given(event.time, data)
-                noticed.append(event.time)
-    with suppress(TrajectoryError):
-        return ComplicationMarks(
-            tuple(begun), tuple(demands), tuple(noticed), tuple(given), tuple(shown), until
-        )
-    return ComplicationMarks(until=until if np.isfinite(until) else 0.0)
-
-
-def _given(time: float, data: dict[str, Any]) -> list[Given]:
-    """Return an answer once for each complication that it answers: the first is judged by."""
-    answer, verdict = str(data["answer"]), AnswerWorth(data["verdict"])
-    kinds = [Kind(kind) for kind in data["kinds"]]
-    if not kinds:
-        return [Given(time, answer, verdict)]
-    first, *others = kinds
-    right = [Given(time, answer, AnswerWorth.RIGHT, kind) for kind in others]
-    return [Given(time, answer, verdict, first), *right]
-
-
-def _displaced(data: dict[str, Any], placed: PlacedPlan) -> tuple[float, float, float]:
-    """Return how far a scan showed the target displaced, world [m]."""
-    document = data.get("inside")
-    if document is None:
-        return 0.0, 0.0, 0.0
-    shift = placed.T_world_patient.rotate(Inside.of(document).displacement_mm * MILLIMETRE)
-    x, y, z = shift.tolist()
-    return x, y, z

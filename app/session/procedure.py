@@ -7,35 +7,24 @@ record, with the needle as it was then; scoring reads these back.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
-import numpy as np
-
-from app.core.arrays import FloatArray
-from app.core.events import Event
 from app.core.messages import sentence
-from app.core.units import MILLIMETRE
+from app.exercises.procedure import LEAST_PLATELETS, MOST_INR
 from app.imaging.field.tissue_field import TissueField
 from app.planning.errors import PlanError
-from app.planning.membrane import membrane_on
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
-from app.planning.sampling import AtRest, SamplePlan, core, plan_sample
-from app.scoring.ablation import AblationMark
-from app.scoring.errors import TrajectoryError
-from app.scoring.met import Met
-from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
+from app.planning.sampling import SamplePlan, plan_sample
+from app.scoring.procedure import SampleMark
 from app.session import ablation as ablating
 from app.session.ablation import AblationState
-from app.session.complications import marks_of_complications
 from app.session.errors import ProcedureNotPossibleError
+from app.session.needle_in_patient import deposit_of, needle_in, sample_of
 from app.session.needle_now import NeedleNow
-from app.session.samples import Samples
-from app.simulation.bound_field import BoundField
 
 if TYPE_CHECKING:
     from app.exercises.procedure import ProcedurePart
@@ -78,10 +67,15 @@ class Step(StrEnum):
     GUN_OUT = "gun_out"
     PLACE_ELECTRODE = ablating.PLACE
     ABLATE = ablating.ABLATE
+    CONSENT = "consent"
+    COAGULATION = "coagulation"
+    ROLL_OVER = "roll_over"
 
 
 OF_ABLATION: Final = (Step.PLACE_ELECTRODE, Step.ABLATE)
 
+CHECKS: Final = (Step.CONSENT, Step.COAGULATION)
+"""The checklist, in its order; nothing is held for it."""
 
 STEP_WORDS: Final = {
     Step.INJECT: sentence("local anaesthetic given"),
@@ -93,6 +87,9 @@ STEP_WORDS: Final = {
     Step.GUN_OUT: sentence("biopsy gun out: the hub is open"),
     Step.PLACE_ELECTRODE: sentence("electrode left in place"),
     Step.ABLATE: sentence("the generator has ablated"),
+    Step.CONSENT: sentence("the patient knows the risks and agrees"),
+    Step.COAGULATION: sentence("coagulation checked"),
+    Step.ROLL_OVER: sentence("the patient is turned, puncture side down"),
 }
 
 _FROM: Final = {
@@ -105,6 +102,8 @@ _FROM: Final = {
     Step.GUN_OUT: (ToolInHand.GUN, ToolInHand.FIRED),
     Step.PLACE_ELECTRODE: (ToolInHand.ELECTRODE,),
     Step.ABLATE: (ToolInHand.ELECTRODE,),
+    **dict.fromkeys(CHECKS, tuple(ToolInHand)),
+    Step.ROLL_OVER: (ToolInHand.STYLET, ToolInHand.ELECTRODE),
 }
 _TO: Final = {
     Step.TAKE_NEEDLE: ToolInHand.STYLET,
@@ -136,6 +135,8 @@ class ProcedureState:
         plans: where to stop for each setting of the gun by the planned path, and what its throw
             would run into there; empty where nothing can tell.
         ablation: how it stands with electrodes; None where none are asked for.
+        checked: what of the checklist was done, in order.
+        rolled: whether the patient was turned, which ends what is done with needles.
     """
 
     part: ProcedurePart
@@ -144,6 +145,8 @@ class ProcedureState:
     samples: tuple[SampleMark, ...] = ()
     plans: tuple[SamplePlan, ...] = ()
     ablation: AblationState | None = None
+    checked: tuple[Step, ...] = ()
+    rolled: bool = False
 
     @classmethod
     def at_begin(
@@ -174,11 +177,23 @@ class ProcedureState:
         """Return which steps may follow, as far as needles and numbers are concerned."""
         return tuple(step for step in Step if not self.refusal(step))
 
+    @property
+    def checks_left(self) -> bool:
+        """Return whether the checklist is still to be done, and no needle was used yet."""
+        used = self.deposits or self.samples or (self.ablation and self.ablation.electrodes)
+        return self.part.checklist is not None and not used and len(self.checked) < len(CHECKS)
+
     def refusal(self, step: Step) -> str:
         """Return why a step cannot follow now; empty if it can."""
         if step in OF_ABLATION and self.ablation is None:
             return sentence("this exercise ablates nothing")
-        gun = step not in (Step.TAKE_NEEDLE, Step.INJECT, *OF_ABLATION)
+        if step in CHECKS:
+            return self._refused_check(step)
+        if self.rolled:
+            return sentence("the patient was turned: nothing more is done with the needle")
+        if step is Step.ROLL_OVER and (refused := self._refused_turn()):
+            return refused
+        gun = step not in (Step.TAKE_NEEDLE, Step.INJECT, Step.ROLL_OVER, *OF_ABLATION)
         if gun and self.part.biopsy is None:
             return sentence("this exercise takes no samples")
         if self.tool not in _FROM[step]:
@@ -197,29 +212,24 @@ class ProcedureState:
             )
         return ""
 
+    def _refused_check(self, step: Step) -> str:
+        if self.part.checklist is None:
+            return sentence("this exercise has no checklist")
+        return sentence("that was checked already") if step in self.checked else ""
+
+    def _refused_turn(self) -> str:
+        if self.part.rollover is None:
+            return sentence("in this exercise the patient is not turned")
+        if self.part.biopsy is not None and not self.samples:
+            return sentence("no sample was taken: the patient is turned after the last one")
+        if self.ablation is not None and self.ablation.reached is None:
+            return sentence("nothing was ablated: the patient is turned after that")
+        return ""
+
 
 def _own_tool(part: ProcedurePart) -> ToolInHand:
     """Return what the exercise's own needle is."""
     return ToolInHand.STYLET if part.ablation is None else ToolInHand.ELECTRODE
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _PlacedNeedle:
-    """The needle in the patient, LPS [mm], and where the tissue about it rests."""
-
-    depth_mm: float
-    tip_mm: FloatArray
-    way: FloatArray
-    target_mm: FloatArray
-    target_now_mm: FloatArray
-    at_rest: AtRest
-    fallen_mm: FloatArray | None = None
-
-    @property
-    def aside_mm(self) -> float:
-        """Return how far beside the target, where the breath has it, the line passes."""
-        away = self.target_now_mm - self.tip_mm
-        return float(np.linalg.norm(away - float(away @ self.way) * self.way))
 
 
 def perform(
@@ -253,9 +263,14 @@ def perform(
     """
     if refusal := state.refusal(step):
         raise ProcedureNotPossibleError(refusal)
-    if step is not Step.ABLATE:
+    if step is not Step.ABLATE and step not in CHECKS:
         _require_place(step, look)
     data: dict[str, object] = {"version": VERSION, "step": step.value}
+    if step in CHECKS:
+        state = replace(state, checked=(*state.checked, step))
+        return state, check_words(state.part, step), data | _checked(state.part, step)
+    if step is Step.ROLL_OVER:
+        return replace(state, rolled=True), STEP_WORDS[step], data
     if step in OF_ABLATION:
         state, words, more = _of_ablation(state, step, look, field, throw)
         return state, words, data | more
@@ -264,96 +279,48 @@ def perform(
     words = STEP_WORDS[step]
     if step not in (Step.INJECT, Step.FIRE):
         return state, words, data
-    needle = _needle(look, placed, field)
+    needle = needle_in(look, placed, field)
     data |= {
         "depth_mm": needle.depth_mm,
         "tip_lps_mm": needle.tip_mm.tolist(),
         "axis_lps": needle.way.tolist(),
     }
     if step is Step.INJECT:
-        deposit = _deposit(field, needle, time)
+        deposit = deposit_of(field, needle, time)
         data |= {"gap_mm": deposit.gap_mm}
         state = replace(state, deposits=state.deposits + 1)
         return state, words, data
-    mark, more = _sample(state, field, needle, throw, notch_deg, time)
+    mark, more = sample_of(state.part.biopsy, field, needle, throw, notch_deg, time)
     data |= more
     state = replace(state, samples=(*state.samples, mark))
     return state, words, data
 
 
-def marks_of(
-    events: Sequence[Event],
-    samples: Samples,
-    met: tuple[Met, ...] | None,
-    placed: PlacedPlan | None = None,
-) -> ProcedureMarks | None:
-    """Return what scoring sees of the steps; None where the record has none.
-
-    Damaged events are left out; without `placed`, complications are.
-    """
-    steps = [(event, _step(event)) for event in events if event.kind == KIND]
-    if not steps:
-        return None
-    deposits: list[Deposit] = []
-    taken: list[SampleMark] = []
-    needle_from: float | None = None
-    open_from: float | None = None
-    ablated: AblationMark | None = None
-    opened: list[tuple[float, float]] = []
-    error: float | None = None
-    for event, step in steps:
-        data: dict[str, Any] = dict(event.data)
-        with suppress(LookupError, TypeError, ValueError, TrajectoryError):
-            if event.data.get("step") == MARKED:
-                error = float(data["error_mm"])
-            if step is Step.INJECT:
-                gap = data["gap_mm"]
-                deposits.append(
-                    Deposit(
-                        event.time, float(data["depth_mm"]), None if gap is None else float(gap)
-                    )
-                )
-            elif step is Step.FIRE:
-                taken.append(_mark(event.time, data))
-            elif step is Step.ABLATE:
-                ablated = ablating.mark_of(data)
-        if step is Step.TAKE_NEEDLE:
-            needle_from = event.time
-        if step in (Step.STYLET_OUT, Step.GUN_OUT) and open_from is None:
-            open_from = event.time
-        elif step in (Step.STYLET_IN, Step.GUN_IN) and open_from is not None:
-            opened.append((open_from, event.time))
-            open_from = None
-    if open_from is not None:
-        opened.append((open_from, np.inf))
-    begins = any(event.data.get("tool") == ToolInHand.ANAESTHETIC.value for event, _ in steps)
-    if begins and needle_from is None:
-        needle_from = np.inf  # it was never taken
-    before = tuple(one for one in met or () if needle_from is not None and one.time < needle_from)
-    happened = None
-    if placed is not None and len(samples.time):
-        happened = marks_of_complications(events, placed, float(samples.time[-1]))
-    return ProcedureMarks(
-        tuple(deposits),
-        tuple(taken),
-        _open_time(opened, samples),
-        needle_from,
-        before,
-        happened,
-        ablated,
-        error,
+def check_words(part: ProcedurePart, step: Step) -> str:
+    """Say what a step of the checklist found: of coagulation the patient's values."""
+    checklist = part.checklist
+    if step is not Step.COAGULATION or checklist is None:
+        return STEP_WORDS[step]
+    return sentence(
+        "coagulation checked: INR {inr:g} (at most {most:g}), platelets {platelets:g} · 10⁹/l "
+        "(at least {least:g})",
+        inr=checklist.inr,
+        most=MOST_INR,
+        platelets=checklist.platelets,
+        least=LEAST_PLATELETS,
     )
 
 
-def shown_events(events: Iterable[Event]) -> tuple[Event, ...]:
-    """Leave out the steps that a time axis has no room for: those without tissue."""
-    shown = (Step.INJECT.value, Step.FIRE.value)
-    return tuple(one for one in events if one.kind != KIND or one.data.get("step") in shown)
+def _checked(part: ProcedurePart, step: Step) -> dict[str, object]:
+    if step is not Step.COAGULATION or part.checklist is None:
+        return {}
+    return {"inr": part.checklist.inr, "platelets": part.checklist.platelets}
 
 
 def begin_data(state: ProcedureState) -> dict[str, object]:
     """Return the data of the event that an attempt with steps begins with."""
-    return {
+    asked = {"rollover": True} if state.part.rollover is not None else {}
+    return asked | {
         "version": VERSION,
         "step": "",
         "tool": state.tool.value,
@@ -369,32 +336,6 @@ def begin_data(state: ProcedureState) -> dict[str, object]:
     }
 
 
-def _step(event: Event) -> Step | None:
-    with suppress(ValueError):
-        return Step(str(event.data.get("step", "")))
-    return None
-
-
-def _mark(time: float, data: dict[str, Any]) -> SampleMark:
-    return SampleMark(
-        time,
-        float(data["lesion_mm"]),
-        data["is_diagnostic"] is True,
-        tuple(str(hit) for hit in data["hits"]),
-        float(data["aside_mm"]) if "aside_mm" in data else None,
-    )
-
-
-def _open_time(opened: Iterable[tuple[float, float]], samples: Samples) -> float:
-    """Return for how long the hub was open with the tip in the body [s]."""
-    spans = np.diff(samples.time, append=samples.time[-1:]) if len(samples.time) else np.empty(0)
-    inside = samples.depth > 0.0
-    total = 0.0
-    for begin, end in opened:
-        total += float(spans[inside & (samples.time >= begin) & (samples.time < end)].sum())
-    return total
-
-
 def _require_place(step: Step, look: NeedleNow | None) -> None:
     if look is None or not look.measured:
         raise ProcedureNotPossibleError(
@@ -408,35 +349,12 @@ def _require_place(step: Step, look: NeedleNow | None) -> None:
         raise ProcedureNotPossibleError(
             sentence("the needle for local anaesthetic is still in the body: draw it out first")
         )
-    if step is not Step.TAKE_NEEDLE and outside:
-        raise ProcedureNotPossibleError(sentence("the tip is outside the skin: insert it first"))
-
-
-def _needle(look: NeedleNow | None, placed: PlacedPlan, field: TissueField | None) -> _PlacedNeedle:
-    if look is None or field is None:
+    if step is Step.ROLL_OVER and not outside:
         raise ProcedureNotPossibleError(
-            sentence("nothing tells which tissue lies where: use tissue: field in the exercise")
+            sentence("the needle is still in the body: draw it out, then turn the patient")
         )
-    bound = BoundField(field, placed.T_world_patient, placed.p_target)
-    shift = look.p_target - placed.p_target
-    shift = np.where(np.isfinite(shift), shift, 0.0)
-    to_world, to_patient = placed.T_world_patient, placed.T_world_patient.inverse()
-
-    def at_rest(places_mm: FloatArray) -> FloatArray:
-        p_world = np.asarray(to_world @ (places_mm * MILLIMETRE))
-        resting = bound.at_rest(p_world, np.broadcast_to(shift, p_world.shape))
-        return np.asarray(to_patient @ resting / MILLIMETRE)
-
-    way = to_patient.rotate(look.tip_axis)
-    return _PlacedNeedle(
-        look.depth / MILLIMETRE,
-        to_patient @ look.p_tip / MILLIMETRE,
-        way / np.linalg.norm(way),
-        to_patient @ placed.p_target / MILLIMETRE,
-        to_patient @ (placed.p_target + shift) / MILLIMETRE,
-        at_rest,
-        look.fallen_mm,
-    )
+    if step not in (Step.TAKE_NEEDLE, Step.ROLL_OVER) and outside:
+        raise ProcedureNotPossibleError(sentence("the tip is outside the skin: insert it first"))
 
 
 def _of_ablation(
@@ -455,63 +373,3 @@ def _of_ablation(
     of_needle = look.p_tip, look.tip_axis, look.depth, look.p_target
     ablation, data = ablation.place(ablating.electrode_at(*of_needle, ablation.aim, field))
     return replace(state, ablation=ablation), ablating.electrode_words(ablation), data
-
-
-def _deposit(field: TissueField | None, needle: _PlacedNeedle, time: float) -> Deposit:
-    gap = None
-    if field is not None:
-        entry = needle.tip_mm - needle.depth_mm * needle.way
-        membrane = membrane_on(field, entry, needle.way, needle.target_mm)
-        if membrane is not None:
-            gap = membrane.depth_mm - needle.depth_mm
-    return Deposit(time, needle.depth_mm, gap)
-
-
-def _sample(
-    state: ProcedureState,
-    field: TissueField | None,
-    needle: _PlacedNeedle,
-    throw: int,
-    notch_deg: float,
-    time: float,
-) -> tuple[SampleMark, dict[str, object]]:
-    biopsy = state.part.biopsy
-    if biopsy is None or field is None:
-        raise ProcedureNotPossibleError(sentence("this exercise takes no samples"))
-    if not 0 <= throw < len(biopsy.throws):
-        raise ProcedureNotPossibleError(
-            sentence(
-                "setting {setting} of the gun: there are 0 to {most}",
-                setting=throw,
-                most=len(biopsy.throws) - 1,
-            )
-        )
-    chosen = biopsy.throw(throw)
-    try:
-        tips = [needle.tip_mm]
-        if needle.fallen_mm is not None:  # or where the last scan showed the lesion: the better
-            tips.append(needle.tip_mm - needle.fallen_mm)
-        cores = [
-            core(field, tip, needle.way, chosen, needle.target_mm, notch_deg, needle.at_rest)
-            for tip in tips
-        ]
-        taken = max(cores, key=lambda one: one.lesion_mm)
-    except PlanError as error:
-        raise ProcedureNotPossibleError(str(error)) from error
-    mark = SampleMark(
-        time,
-        taken.lesion_mm,
-        taken.lesion_mm >= biopsy.diagnostic_mm,
-        tuple(hit.sentence for hit in taken.hits),
-        needle.aside_mm,
-    )
-    return mark, {
-        "throw_mm": chosen.throw_mm,
-        "notch_mm": chosen.notch_mm,
-        "notch_deg": notch_deg,
-        "lesion_mm": taken.lesion_mm,
-        "lesion_share": taken.lesion_share,
-        "aside_mm": needle.aside_mm,
-        "is_diagnostic": mark.is_diagnostic,
-        "hits": [str(hit) for hit in mark.hits],
-    }

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Final
 
 from app.core.messages import joined, sentence
-from app.scoring.procedure import ProcedureMarks, SampleMark
+from app.scoring.procedure import ProcedureMarks, SampleMark, TurningMark
 
 Moment = Callable[[float], str]
 """Tells a monotonic time [s] as the student's clock showed it."""
@@ -39,6 +39,10 @@ def procedure_reasons(metric: str, steps: ProcedureMarks | None, moment: Moment)
             )
             for met in steps.pierced
         )
+    if metric == "checklist_done" and steps.checked < 1.0:
+        return (sentence("Consent or coagulation was not checked before the needle went in."),)
+    if metric == "rollover_time" and steps.turning is not None:
+        return (_turned(steps.turning),)
     if metric == "hub_open_time" and steps.open_s > 0.0:
         return (
             sentence(
@@ -47,6 +51,14 @@ def procedure_reasons(metric: str, steps: ProcedureMarks | None, moment: Moment)
             ),
         )
     return ()
+
+
+def _turned(turning: TurningMark) -> str:
+    if turning.turned is None:
+        return sentence("Nobody turned the patient after the needle was out.")
+    return sentence(
+        "The patient was turned {seconds:.0f} s after the needle was out.", seconds=turning.wait
+    )
 
 
 def _sample(number: int, sample: SampleMark, moment: Moment) -> str:

@@ -21,7 +21,7 @@ from app.session.ct_facts import CtFacts
 from app.session.errors import BrokenRecordingError, BudgetExceededError
 from app.session.facts import PLAN, placed_plan
 from app.session.planned import judged_plan
-from app.session.procedure import marks_of
+from app.session.procedure_marks import marks_of
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
 from app.session.samples import Samples, bends, flags, floats, known, spreads, vectors, words

@@ -31,7 +31,7 @@ from app.session.ablation_shown import AblationShown
 from app.session.along_path import AlongPath
 from app.session.attempt_clock import AttemptClock
 from app.session.calibration_flag import CalibrationFlags
-from app.session.complications import KIND as COMPLICATION
+from app.session.complication_case import KIND as COMPLICATION
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, at_rest, curves
@@ -44,7 +44,7 @@ from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
 from app.session.planned import judged_plan
-from app.session.procedure import marks_of, shown_events
+from app.session.procedure_marks import marks_of, shown_events
 from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import Recording
 from app.session.result import AttemptResult

@@ -7,7 +7,6 @@ follow each other at a person's pace. Nobody else's hand has these phases.
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
@@ -23,6 +22,7 @@ from app.session.errors import ProcedureNotPossibleError
 from app.session.needle import FROM_CAMERAS
 from app.session.needle_now import NeedleNow
 from app.session.procedure import (
+    CHECKS,
     KIND,
     ProcedureState,
     Step,
@@ -71,6 +71,7 @@ class ScriptedSteps:
     phase: float = 0.0
     _left: list[tuple[Step, int, float]] = field(default_factory=list)
     _next: float = 0.0
+    _begun: bool = False
 
     @property
     def waits(self) -> bool:
@@ -78,20 +79,37 @@ class ScriptedSteps:
         return bool(self._left)
 
     def look(self, phase: float, now: float, perform: Perform) -> None:
-        """Do what is due at `now` [s] in a phase of the script; what is refused is left out."""
+        """Do what is due at `now` [s] in a phase of the script.
+
+        What is refused is left out; the checklist is tried again, as it may be too early for it.
+        """
         if phase != self.phase:
-            self.phase, self._left = phase, self._of(phase)
+            self.phase, self._left = phase, [*self._left_of_checks(), *self._of(phase)]
             self._next = now + PACE
         if not self._left or now < self._next:
             return
         step, setting, notch_deg = self._left.pop(0)
         self._next = now + PACE
-        with suppress(ProcedureNotPossibleError):
+        try:
             perform(step, setting, notch_deg)
+        except ProcedureNotPossibleError:
+            if step in CHECKS:
+                self._left.insert(0, (step, setting, notch_deg))
+
+    def _left_of_checks(self) -> list[tuple[Step, int, float]]:
+        """Return what of the checklist is to be done before all else."""
+        if self.part.checklist is None:
+            return []
+        if not self._begun:
+            self._begun = True
+            return [(step, 0, 0.0) for step in CHECKS]
+        return [one for one in self._left if one[0] in CHECKS]
 
     def _of(self, phase: float) -> list[tuple[Step, int, float]]:
         if phase == StopPhase.INJECT:
             return [(Step.INJECT, 0, 0.0)]
+        if phase == StopPhase.TURN:
+            return [(Step.ROLL_OVER, 0, 0.0)]
         if phase == StopPhase.CHANGE:
             return [(Step.TAKE_NEEDLE, 0, 0.0)]
         if phase == ElectrodePhase.PLACE:
@@ -156,6 +174,7 @@ def steps_of_rows(
             depth,
             samples.target[row] + aside[row],
             bool(seen[row]),
+            None if patient is None else patient.happens.fallen_mm,
         )
         time = float(samples.time[row])
 
@@ -167,6 +186,8 @@ def steps_of_rows(
             events.append(Event(time, KIND, words, data))
             if patient is not None and step is Step.FIRE:
                 patient.happens.fired(needle)
+            if patient is not None and step is Step.ROLL_OVER:
+                patient.happens.rolled_over()
             return state
 
         if patient is not None:

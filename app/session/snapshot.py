@@ -428,6 +428,8 @@ class NextSteps:
         if step.kind not in _DURING:
             return step
         own = NextStep(StepKind.PROCEDURE, procedure=state, inside=inside)
+        if not inside and (state.checks_left or state.rolled):
+            return own
         if state.ablation is not None and state.tool is ToolInHand.ELECTRODE:
             return _in_ablation(step, own, state.ablation)
         if state.tool is ToolInHand.ANAESTHETIC:
@@ -435,8 +437,11 @@ class NextSteps:
             return step if aims and not state.deposits else own
         if state.tool is not ToolInHand.STYLET or state.part.biopsy is None:
             return own if state.part.biopsy is not None else step
+        ends = state.part.rollover is not None and bool(state.samples)
         if step.kind in (StepKind.LOOK, StepKind.SCAN):
-            return step if inside is False else own
+            return step if inside is False and not ends else own
+        if ends:
+            return own
         if step.kind in (StepKind.TILT, StepKind.INSERT, StepKind.FEEL):
             return step
         # The notch lies ahead of the tip: its middle goes to the target, not the tip.
@@ -489,7 +494,8 @@ class NextSteps:
 def _in_ablation(step: NextStep, own: NextStep, ablation: AblationState) -> NextStep:
     """Say what is next with electrodes: leave one, draw back for the next, ablate, end."""
     if ablation.reached is not None:
-        return NextStep(StepKind.FINISH)
+        turns = own.procedure is not None and own.procedure.part.rollover is not None
+        return own if turns else NextStep(StepKind.FINISH)
     if ablation.all_placed or own.inside is None:
         return own
     if own.inside and step.kind in (StepKind.HOLD, StepKind.FINISH, StepKind.LOOK):

@@ -240,7 +240,8 @@ def _stays(rows: NDArray[np.intp], samples: Samples) -> list[NDArray[np.intp]]:
 
 def _met_on(field: TissueField, way: _Way, held: set[int], forces: FeltAlong) -> list[Met]:
     """Return what was met on one way forwards."""
-    crossed = _touching(field, way, walk(field, way.places))
+    walked = walk(field, way.places)
+    crossed = _touching(field, way, walked)
     lung = {tissue.code for tissue in field.of_kind(TissueKind.LUNG)}
     small = {tissue.code for tissue in field.tissues if tissue.name in SMALL_VESSELS}
     found: list[tuple[float, Met]] = []
@@ -250,7 +251,7 @@ def _met_on(field: TissueField, way: _Way, held: set[int], forces: FeltAlong) ->
             continue
         # what lies within an organ, and a lesion in it, does not part it
         within = small | held if code in lung | held else small
-        for part in joined(crossed, {code}, GAP_MM, within - {code}):
+        for part in stretches(crossed, len(walked), code, within - {code}):
             met = _met(field, way, part, crossed, held)
             if code in lung:  # a nodule does not part it, nor another lobe, and is none of it
                 solid = _solid_mm(crossed, part, (held | lung) - {code})
@@ -260,6 +261,25 @@ def _met_on(field: TissueField, way: _Way, held: set[int], forces: FeltAlong) ->
             force = forces.largest(met.time, left)
             found.append((part.begin_mm, replace(met, force_n=force)))
     return [met for _, met in sorted(found, key=lambda one: one[0])]
+
+
+def stretches(crossed: list[Crossed], walked: int, code: int, within: set[int]) -> list[Crossed]:
+    """Return the stretches of one tissue, each of a length that can be.
+
+    Bone that was touched on the way to where the tip lay in it stands behind that in `crossed`: it
+    is met on its own, and not joined backwards.
+
+    Args:
+        crossed: of a way, what was only touched behind all else.
+        walked: how many of them were walked through.
+        code: which tissue.
+        within: what does not part it.
+    """
+    whole = joined(crossed, {code}, GAP_MM, within)
+    if all(part.length_mm >= 0.0 for part in whole):
+        return whole
+    lain = joined(crossed[:walked], {code}, GAP_MM, within)
+    return lain + joined(crossed[walked:], {code}, GAP_MM, within)
 
 
 def _solid_mm(crossed: list[Crossed], part: Crossed, codes: set[int]) -> float:

@@ -29,16 +29,16 @@ from app.session.ablation import AblationState
 from app.session.abort_reasons import BY_USER, TRAINER_CLOSED
 from app.session.attempt_log import AttemptLog
 from app.session.beginnings import Beginnings
-from app.session.complications import KIND as COMPLICATION
+from app.session.complication_case import KIND as COMPLICATION
+from app.session.complication_case import ComplicationCase
 from app.session.complications import (
-    ComplicationCase,
     Complications,
     Happening,
     attempt_seed,
 )
 from app.session.conditions import ARM, POINTERS, TAKEN_OVER, TRAINEE, hand_of
 from app.session.context import RunContext
-from app.session.control_scan import ROOM, Leave, Taking, require_inside
+from app.session.control_scan import ROOM, Leave, Taking, require_inside, take
 from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import (
     ControlLockedError,
@@ -58,8 +58,9 @@ from app.session.resting import Resting
 from app.session.result import AttemptResult
 from app.session.risks import Risk
 from app.session.running import RunningAttempt
+from app.session.scan_reading import ScanReading
 from app.session.scored import scorer
-from app.session.scripted_answers import ScriptedAnswers
+from app.session.scripted_answers import Pictures, ScanReader, ScriptedAnswers
 from app.session.scripted_steps import ScriptedSteps
 from app.session.snapshot import Snapshot, advice
 from app.session.still_hand import StillHand
@@ -127,6 +128,7 @@ class Trainer:
         simulated: bool = False,
         by_program: bool = False,
         scripted: str = "",
+        pictures: Pictures | None = None,
     ) -> None:
         """Keep the parts.
 
@@ -140,7 +142,8 @@ class Trainer:
         None for where scripts do. `simulated` says that robot and cameras both are: they rest while
         nobody wants them, and no pause is a real camera's fault. `by_program` says that no person
         moves the hand: by a paced clock it needs no window that lives, and never rests. `scripted`
-        names the skill of a scripted hand, for what the other hand does.
+        names the skill of a scripted hand, for what the other hand does; `pictures` makes the
+        control scans that such a hand reads, without which it sees the monitor alone.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -153,6 +156,7 @@ class Trainer:
         self._case = ComplicationCase.of(exercise, placed, tissues)
         self._happens: Complications | None = None
         self._skill, self._answers = scripted, ScriptedAnswers.of(scripted)
+        self._pictures = pictures
         self._leave: Leave | None = None
         self._mark: EntryMark | None = None
         self._dial = exercise.assistance if dial is None else dial
@@ -455,6 +459,8 @@ class Trainer:
             )
             if happens is not None and step is Step.FIRE:
                 happens.fired(NeedleNow.of(seen))
+            if happens is not None and step is Step.ROLL_OVER:
+                happens.rolled_over()
             if step is Step.PLACE_ELECTRODE:
                 self._take_aim()
             return self._procedure
@@ -500,7 +506,7 @@ class Trainer:
             own = header.seed if self._skill and not is_assessment else None
             seed = attempt_seed(header.id, is_assessment) if own is None else own
             self._happens = Complications(self._case, seed)
-            self._answers = ScriptedAnswers.of(self._skill)
+            self._answers = ScriptedAnswers.of(self._skill, seed)
             self._keep(self._happens.begin(), now)
 
     def _watch_patient(self, seen: Observation, now: float) -> None:
@@ -512,9 +518,31 @@ class Trainer:
         for happening in happens.look(NeedleNow.of(seen), is_outer, now, running.paused):
             self._keep(happening, now)
         if self._answers is not None and running.acts:
-            answer = self._answers.look(happens.rows, now)
+            self._look_at_scans(self._answers, seen, is_outer, now)
+            if self._answers.notices(happens.state.vitals, now):
+                self._keep(happens.notice(), now)
+            answer = self._answers.look(happens.state.vitals, now)
             if answer is not None:
                 self._keep(happens.answer(answer), now)
+
+    def _look_at_scans(
+        self, answers: ScriptedAnswers, seen: Observation, is_outer: bool, now: float
+    ) -> None:
+        """Let a scripted hand take the scans that it answers by, and read their pictures."""
+        needle, case, log = NeedleNow.of(seen), self._case, self._running.log
+        if needle is None or not needle.measured or case is None or log is None:
+            return
+        if not answers.wants_scan(is_outer and needle.depth > 0.0, now):
+            return
+        guidance = self._exercise.guidance
+        order = guidance.order(float(self._placed.plan.target_mm[2]))
+        taking = self._as_it_is(self._taking(order, replace(guidance.choice, leaves=False)))
+        number = self._running.scan(seen, now, taking)
+        reading = ScanReading()
+        if self._pictures is not None:
+            scan = take(number, taking, now, seen, self._placed)
+            reading = ScanReader(case, self._pictures).read(scan)
+        answers.see(reading, now)
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:

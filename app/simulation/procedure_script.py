@@ -15,6 +15,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.messages import sentence
+from app.simulation.electrode_script import DRAWN
 from app.simulation.errors import SimulationError
 from app.simulation.trainee import ABOVE_SKIN, ScriptPhase, TraineeScript
 
@@ -28,6 +29,8 @@ class StopPhase(IntEnum):
     """Out of the body, another needle is taken."""
     SAMPLE = 12
     """Samples are taken."""
+    TURN = 13
+    """The needle is out, and the patient is turned."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +43,7 @@ class Stops:
         pause: for how long [s].
         sampling: how long it stays for samples [s]; 0 for none.
         speed: of the needle for local anaesthetic [m/s].
+        turning: how long it stays with the needle out after the samples [s]; 0 leaves it in.
 
     Raises:
         SimulationError: if a number is not finite or negative.
@@ -50,9 +54,11 @@ class Stops:
     pause: float = 4.0
     sampling: float = 0.0
     speed: float = 0.012
+    turning: float = 0.0
 
     def __post_init__(self) -> None:
-        numbers = (self.anaesthetic or 0.0, self.before or 0.0, self.pause, self.sampling)
+        stays = (self.pause, self.sampling, self.turning)
+        numbers = (self.anaesthetic or 0.0, self.before or 0.0, *stays)
         if not all(np.isfinite(number) and number >= 0.0 for number in (*numbers, self.speed)):
             raise SimulationError(sentence("a script cannot stop at {stops}", stops=str(self)))
 
@@ -64,6 +70,8 @@ def with_stops(script: TraineeScript, stops: Stops) -> TraineeScript:
         rows = _paused(rows, stops.before, round(stops.pause / script.row))
     if stops.sampling > 0.0:
         rows = _sampling(rows, round(stops.sampling / script.row))
+    if stops.turning > 0.0:
+        rows = withdrawn(rows, stops.turning, script.row, StopPhase.TURN)
     if stops.anaesthetic is not None:
         rows = _anaesthetic(rows, stops, script.row)
     return replace(script, rows=read_only(np.ascontiguousarray(rows)))
@@ -86,6 +94,30 @@ def _sampling(rows: FloatArray, count: int) -> FloatArray:
     stay = np.repeat(rows[at - 1 : at], count, axis=0)
     stay[:, 3] = float(StopPhase.SAMPLE)
     return np.insert(rows, at, stay, axis=0)
+
+
+def withdrawn(rows: FloatArray, duration: float, row: float, phase: IntEnum) -> FloatArray:
+    """Draw the needle out before the hand waits for the end, and stand still in a phase.
+
+    Args:
+        rows: of a script, shape (n, 4).
+        duration: for which it stands still outside [s].
+        row: time between two rows [s].
+        phase: in which it does.
+    """
+    waits = np.flatnonzero(rows[:, 3] == ScriptPhase.WAIT)
+    at = int(waits[0]) if len(waits) else len(rows) - 1
+    last = rows[at - 1]
+    way = max(0.5, (float(last[2]) - ABOVE_SKIN) / DRAWN)
+    s = np.minimum((np.arange(max(1, round(way / row))) + 1.0) * row / way, 1.0)
+    out = np.repeat(last[None], len(s), axis=0)
+    out[:, 2] += s**3 * (10.0 - 15.0 * s + 6.0 * s**2) * (ABOVE_SKIN - last[2])
+    out[:, 3] = float(ScriptPhase.WITHDRAW)
+    stay = np.repeat(out[-1:], max(1, round(duration / row)), axis=0)
+    stay[:, 3] = float(phase)
+    rest = rows[at:].copy()
+    rest[:, :3] = out[-1, :3]
+    return np.vstack([rows[:at], out, stay, rest])
 
 
 def _anaesthetic(rows: FloatArray, stops: Stops, row: float) -> FloatArray:

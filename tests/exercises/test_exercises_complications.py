@@ -8,7 +8,7 @@ from app.exercises.library import load_exercise
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
-from app.session.complications import ComplicationCase
+from app.session.complication_case import ComplicationCase
 from app.session.scripted_steps import sampling_time
 
 PLACED = PlacedPlan.of(Plan(ENTRY, TARGET, "p"), Placement(), (0.0, 0.16, 0.09))

@@ -18,7 +18,8 @@ from app.planning.ablation.judging import Lesion, judge
 from app.planning.ablation.zone import Zone
 from app.session.ablation_shown import AblationShown
 from app.session.errors import ProcedureNotPossibleError
-from app.session.procedure import KIND, ProcedureState, Step, begin_data, marks_of, perform
+from app.session.procedure import KIND, ProcedureState, Step, begin_data, perform
+from app.session.procedure_marks import marks_of
 from app.session.samples import SampleHistory
 from tests.ablation_rig import begin, liver, needle, part, placed
 

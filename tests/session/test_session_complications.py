@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,24 +20,21 @@ from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.complications.answers import Kind, Reaction
+from app.scoring.complications.course import Vitals
 from app.scoring.complications.factors import Lying
 from app.scoring.complications.lots import Lots
 from app.scoring.procedure import ProcedureMarks
 from app.scoring.trajectory import Trajectory
 from app.session import trainer
-from app.session.complications import (
-    KIND,
-    ComplicationCase,
-    Complications,
-    attempt_seed,
-    lying_of,
-    marks_of_complications,
-)
+from app.session.complication_case import KIND, ComplicationCase, lying_of
+from app.session.complication_marks import marks_of_complications
+from app.session.complications import Complications, attempt_seed
 from app.session.control_scan import ControlScan, scans_of
 from app.session.errors import ProcedureNotPossibleError
 from app.session.lung_watch import LungWatch, lesion_facts
 from app.session.needle_now import NeedleNow
 from app.session.recording import read_recording
+from app.session.scan_reading import ScanReading
 from app.session.scripted_answers import MANNERS, ScriptedAnswers
 from app.simulation.bound_field import BoundField
 
@@ -214,6 +212,14 @@ def test_the_lung_falls_back_in_the_next_scans_more_and_more() -> None:
     np.testing.assert_array_equal(attempt.happens.fallen_mm, second.displacement_mm)
 
 
+def test_a_patient_turned_before_it_begins_has_a_smaller_leak_or_none() -> None:
+    up, turned = (Attempt(case(bleeding=False), LARGE).go(48.0) for _ in range(2))
+    turned.happens.rolled_over()
+    for attempt in (up, turned):
+        attempt.wait(80.0)
+    assert 0.0 <= turned.happens.share < 0.7 * up.happens.share
+
+
 def test_what_waits_for_the_program_does_not_grow() -> None:
     attempt = Attempt(attempt=LARGE).go(48.0).wait(60.0)
     share = attempt.happens.share
@@ -362,20 +368,49 @@ def test_a_lesion_is_measured_and_its_contact_to_the_pleura_seen() -> None:
     assert lesion_facts(chest((near,)), (-60.0, -42.0, 0.0)).touches
 
 
-def test_an_expert_answers_soon_and_rightly_and_a_novice_late() -> None:
-    for skill, right in (("expert", True), ("novice", False)):
-        attempt = Attempt(case(bleeding=False), LARGE)
-        answers = ScriptedAnswers.of(skill)
-        attempt.go(48.0)
-        for _ in range(300):
-            attempt.wait(1.0)
-            answer = answers.look(attempt.happens.rows, attempt.now)
-            if answer is not None:
-                attempt.do(answer)
-        marks = attempt.marks()
-        assert marks.waits()[0] == pytest.approx(MANNERS[skill].delay, abs=2.1)
-        assert all(value == 1.0 for value in marks.worth()) is right
+@pytest.mark.parametrize(("skill", "right"), [("expert", True), ("novice", False)])
+def test_an_expert_answers_soon_and_rightly_and_a_novice_late(skill: str, right: bool) -> None:
+    attempt = Attempt(case(bleeding=False), LARGE)
+    answers = ScriptedAnswers.of(skill)
+    attempt.go(48.0)
+    for _ in range(300):
+        attempt.wait(1.0)
+        if answers.wants_scan(True, attempt.now):
+            answers.see(ScanReading(attempt.happens.rim_mm), attempt.now)
+        if answers.notices(attempt.happens.state.vitals, attempt.now):
+            attempt.events.append(attempt._event(attempt.happens.notice()))
+        answer = answers.look(attempt.happens.state.vitals, attempt.now)
+        if answer is not None:
+            attempt.do(answer)
+    marks, manner = attempt.marks(), MANNERS[skill]
+    if right:  # who hears the cough; no scan shows anything yet
+        assert marks.waits()[0] == pytest.approx(manner.delay, abs=2.1)
+    else:
+        assert marks.waits()[0] > manner.delay
+    assert all(value == 1.0 for value in marks.worth()) is right
     assert ScriptedAnswers.of("") is None
+
+
+def test_what_no_scan_shows_is_not_answered_whatever_is_so() -> None:
+    attempt, answers = Attempt(case(bleeding=False), LARGE), ScriptedAnswers.of("expert")
+    attempt.go(48.0).wait(20.0)
+    while attempt.happens.rim_mm < 8.0:
+        attempt.wait(1.0)
+    assert attempt.happens.rows, "there is something to be answered"
+    for _ in range(30):
+        answers.see(ScanReading(), attempt.now)
+        assert answers.look(Vitals(), attempt.now) is None
+
+
+def test_a_worse_skill_misses_thinner_rims_and_overlooks_more() -> None:
+    order = [MANNERS[skill] for skill in ("expert", "proficient", "competent", "beginner")]
+    for better, worse in pairwise([*order, MANNERS["novice"]]):
+        assert (better.least_mm, better.overlooks) < (worse.least_mm, worse.overlooks)
+    for skill, seen in (("expert", 1), ("novice", 0)):
+        answers = ScriptedAnswers.of(skill)
+        for _ in range(6):
+            answers.see(ScanReading(rim_mm=7.0), 0.0)
+        assert len(answers.rows(Vitals())) == seen
 
 
 def test_a_scan_of_a_record_is_read_with_what_it_showed() -> None:

@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 
 from app.core.events import Event
 from app.core.transform import RigidTransform
-from app.exercises.procedure import AnaestheticPart, BiopsyPart, ProcedurePart, ThrowPart
+from app.exercises.procedure import (
+    AnaestheticPart,
+    BiopsyPart,
+    ChecklistPart,
+    ProcedurePart,
+    RolloverPart,
+    ThrowPart,
+)
 from app.imaging.field import TissueField, TissueKind
 from app.session.errors import ProcedureNotPossibleError
 from app.session.procedure import (
@@ -20,9 +27,11 @@ from app.session.procedure import (
     Step,
     ToolInHand,
     begin_data,
-    marks_of,
     perform,
 )
+from app.session.procedure_marks import marks_of
+from app.session.scripted_steps import ScriptedSteps
+from app.simulation.procedure_script import StopPhase
 from tests.field_rig import ball, beyond, field_of_shapes
 
 TARGET = np.array([20.0, 40.0, 20.0])
@@ -255,3 +264,90 @@ def test_an_exercise_names_what_is_wrong_with_its_procedure() -> None:
         with pytest.raises(ValueError, match=words):
             ProcedurePart.model_validate(part)
     assert ThrowPart(throw_mm=20, notch_mm=14, dead_tip_mm=6).throw().notch_span_mm == (0.0, 14.0)
+
+
+TURNED = WHOLE.model_copy(update={"checklist": ChecklistPart(inr=1.1), "rollover": RolloverPart()})
+
+
+def through_one_sample(state: ProcedureState) -> tuple[ProcedureState, list[Event]]:
+    events = [Event(0.0, KIND, "", begin_data(state))]
+    moments = [(Step.INJECT, 16.0, 12.0), (Step.TAKE_NEEDLE, -5.0, 14.0)]
+    moments += [(step, 26.0, 20.0 + n) for n, step in enumerate(SAMPLE)]
+    for step, depth, time in moments:
+        state, event = done(state, step, needle(depth), time=time)
+        events.append(event)
+    return state, events
+
+
+def test_consent_and_coagulation_count_only_before_any_needle() -> None:
+    state = ProcedureState.at_begin(TURNED)
+    assert state.checks_left
+    state, first = done(state, Step.CONSENT, needle(-5.0), time=3.0)
+    assert "held is" not in state.refusal(Step.COAGULATION)
+    state, late = done(state, Step.COAGULATION, needle(16.0), time=15.0)
+    assert "INR 1.1 (at most 1.8), platelets 230" in late.message
+    assert late.data["inr"] == 1.1
+    assert not state.checks_left
+    with pytest.raises(ProcedureNotPossibleError, match="checked already"):
+        done(state, Step.CONSENT, needle(-5.0))
+    begin = Event(0.0, KIND, "", begin_data(ProcedureState.at_begin(TURNED)))
+    for events, share in (([first, late], 0.5), ([first], 0.5), ([], 0.0)):
+        marks = marks_of([begin, *events], samples(), ())
+        assert marks is not None
+        assert marks.checked == share
+
+
+def test_the_patient_is_turned_after_a_sample_with_the_needle_out_and_once() -> None:
+    state = ProcedureState.at_begin(TURNED)
+    with pytest.raises(ProcedureNotPossibleError, match="no sample was taken"):
+        done(state, Step.ROLL_OVER, needle(-5.0))
+    state, events = through_one_sample(state)
+    with pytest.raises(ProcedureNotPossibleError, match="still in the body: draw it out"):
+        done(state, Step.ROLL_OVER, needle(20.0))
+    state, turned = done(state, Step.ROLL_OVER, needle(-5.0), time=70.0)
+    for step in (Step.STYLET_OUT, Step.ROLL_OVER):
+        with pytest.raises(ProcedureNotPossibleError, match="was turned"):
+            done(state, step, needle(-5.0))
+    time = np.arange(0.0, 100.0, 0.1)
+    inside = (time >= 10.0) & (time < 60.0)
+    seen: Any = SimpleNamespace(time=time, depth=np.where(inside, 0.03, -0.01))
+    marks = marks_of([*events, turned], seen, ())
+    assert marks is not None
+    assert marks.turning is not None
+    assert marks.turning.wait == pytest.approx(10.0, abs=0.11)
+    assert marks.turning.last == pytest.approx(22.0)
+    never = marks_of(events, seen, ())
+    assert never is not None
+    assert never.turning is not None
+    assert never.turning.wait == 600.0
+
+
+def test_an_exercise_without_checklist_and_turning_keeps_nothing_of_them() -> None:
+    state = ProcedureState.at_begin(WHOLE)
+    assert set(begin_data(state)) == {"version", "step", "tool", "plans"}
+    assert not state.checks_left
+    for step, words in (
+        (Step.CONSENT, "has no checklist"),
+        (Step.ROLL_OVER, "the patient is not turned"),
+    ):
+        assert words in state.refusal(step)
+    _, events = through_one_sample(state)
+    marks = marks_of(events, samples(), ())
+    assert marks is not None
+    assert marks.turning is None
+
+
+def test_a_script_tries_the_checklist_again_until_the_attempt_has_begun() -> None:
+    steps, done_at = ScriptedSteps(TURNED), list[tuple[float, Step]]()
+
+    def act(step: Step, throw: int, deg: float, now: float) -> ProcedureState:
+        if now < 5.0:
+            raise ProcedureNotPossibleError("not begun")
+        done_at.append((now, step))
+        return ProcedureState.at_begin(TURNED)
+
+    for now in np.arange(0.0, 20.0, 0.1).tolist():
+        phase = 1.0 if now < 12.0 else float(StopPhase.INJECT)
+        steps.look(phase, now, lambda *how, now=now: act(*how, now))
+    assert [step for _, step in done_at] == [Step.CONSENT, Step.COAGULATION, Step.INJECT]
+    assert 5.0 <= done_at[0][0] < 6.5

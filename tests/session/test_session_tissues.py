@@ -14,6 +14,7 @@ from session_fakes import Bench
 from app.core.events import Event
 from app.exchange.csv_export import trajectory_table
 from app.imaging.field import TissueKind
+from app.imaging.field.walking import Crossed, joined
 from app.scoring.result import Score, judge
 from app.scoring.rows import ScoreRules
 from app.session.along_path import AlongPath
@@ -22,7 +23,7 @@ from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import messages_agree, read_recording
 from app.session.replay import contents
 from app.session.tissue_force import feels_along
-from app.session.tissues import event_of, tissues_met, tissues_met_of
+from app.session.tissues import GAP_MM, event_of, stretches, tissues_met, tissues_met_of
 from app.session.verify import verify
 
 ENTRY = np.array([-12.5, -98.0, 310.2])
@@ -311,3 +312,16 @@ def test_a_damaged_word_on_a_plan_is_none(bench: Bench, damage) -> None:
     (kept,) = [event for event in events if event.kind == "plan"]
     assert judged_plan([kept]) is not None
     assert judged_plan([replace(kept, data=dict(kept.data) | damage)]) is None
+
+
+def test_bone_touched_before_the_tip_lay_in_it_is_met_apart_and_backwards_nothing_is() -> None:
+    def part(code: int, begin: float, end: float) -> Crossed:
+        places = np.array([0.0, begin, 0.0]), np.array([0.0, end, 0.0])
+        return Crossed(code, begin, end, *places, 0.0)
+
+    muscle, rib = 1, 2
+    walked = [part(muscle, 0.0, 19.4), part(rib, 19.4, 21.0), part(muscle, 21.0, 30.0)]
+    met = stretches([*walked, part(rib, 17.0, 17.0)], 3, rib, set())
+    assert [(one.begin_mm, one.end_mm) for one in met] == [(19.4, 21.0), (17.0, 17.0)]
+    later = [*walked, part(rib, 25.0, 25.0)]
+    assert stretches(later, 3, rib, set()) == joined(later, {rib}, GAP_MM, set())

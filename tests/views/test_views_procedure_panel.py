@@ -4,7 +4,13 @@ from typing import Any
 
 import pytest
 
-from app.exercises.procedure import AnaestheticPart, BiopsyPart, ProcedurePart
+from app.exercises.procedure import (
+    AnaestheticPart,
+    BiopsyPart,
+    ChecklistPart,
+    ProcedurePart,
+    RolloverPart,
+)
 from app.imaging.field.tissue_field import TissueKind
 from app.planning.sampling import Ahead, SamplePlan
 from app.scoring.procedure import SampleMark
@@ -147,3 +153,88 @@ def test_where_control_scans_guide_every_order_to_move_names_their_key() -> None
             words = step_words(step, True)
             assert words.startswith("By the scans (S): ")
             assert "J" in words or "take the next one" in words
+
+
+TURNED = PART.model_copy(update={"checklist": ChecklistPart(), "rollover": RolloverPart()})
+
+
+def turned(tool: ToolInHand, **more: Any) -> ProcedureState:
+    return ProcedureState(TURNED, tool, **more)
+
+
+SAMPLED = (SampleMark(1.0, 5.0, True),)
+CHECKED = (Step.CONSENT, Step.COAGULATION)
+
+
+@pytest.mark.parametrize(
+    ("shown", "inside", "step"),
+    [
+        (turned(ToolInHand.ANAESTHETIC), False, Step.CONSENT),
+        (turned(ToolInHand.ANAESTHETIC), None, Step.CONSENT),
+        (turned(ToolInHand.ANAESTHETIC, checked=CHECKED[:1]), False, Step.COAGULATION),
+        (turned(ToolInHand.ANAESTHETIC, checked=CHECKED), True, Step.INJECT),
+        (turned(ToolInHand.STYLET, samples=SAMPLED), True, Step.STYLET_OUT),
+        (turned(ToolInHand.STYLET, samples=SAMPLED), False, Step.ROLL_OVER),
+    ],
+)
+def test_the_key_does_checklist_and_turning_where_they_belong(
+    panel: ProcedurePanel, shown: ProcedureState, inside: bool | None, step: Step
+) -> None:
+    panel.show_procedure(shown, True, inside)
+    panel.next.click()
+    assert [one[0] for one in panel.seen] == [step]  # type: ignore[attr-defined]
+    assert panel.other.isHidden()
+
+
+@pytest.mark.parametrize(
+    ("shown", "step", "words"),
+    [
+        (turned(ToolInHand.ANAESTHETIC, deposits=1), Step.INJECT, "Give more (Alt+J)"),
+        (turned(ToolInHand.STYLET, samples=SAMPLED), Step.ROLL_OVER, "Turn the patient (Alt+J)"),
+        (state(ToolInHand.ANAESTHETIC, deposits=2), Step.INJECT, "Give more (Alt+J)"),
+    ],
+)
+def test_where_scans_guide_another_step_has_a_button_and_a_key_in_the_guns_place(
+    panel: ProcedurePanel, shown: ProcedureState, step: Step, words: str
+) -> None:
+    panel.show_procedure(shown, True, None)
+    assert words in panel.other.accessibleName()
+    assert panel.fire.isHidden()
+    panel.other.click()
+    assert [one[0] for one in panel.seen] == [step]  # type: ignore[attr-defined]
+    panel.show_procedure(state(ToolInHand.GUN), True, None)
+    assert panel.other.isHidden()
+    assert not panel.fire.isHidden()
+
+
+def test_the_other_key_is_dead_where_no_procedure_is_shown(panel: ProcedurePanel) -> None:
+    panel.show_procedure(turned(ToolInHand.ANAESTHETIC, deposits=1), True, None)
+    assert panel.other.isEnabled()
+    panel.show_procedure(None, False)
+    assert not panel.other.isEnabled()
+    panel.other.click()
+    assert panel.seen == []  # type: ignore[attr-defined]
+
+
+def test_what_was_checked_and_turned_is_told(panel: ProcedurePanel) -> None:
+    panel.show_procedure(turned(ToolInHand.STYLET, checked=CHECKED, rolled=True), True, False)
+    assert "INR 1 (at most 1.8)" in panel.results.text()
+    assert "puncture side down" in panel.results.text()
+    assert not panel.next.isEnabled()
+
+
+@pytest.mark.parametrize(
+    ("shown", "inside", "words"),
+    [
+        (turned(ToolInHand.ANAESTHETIC), False, "Ask for consent (J)"),
+        (turned(ToolInHand.ANAESTHETIC, checked=CHECKED[:1]), None, "Check coagulation (J)"),
+        (turned(ToolInHand.STYLET, samples=SAMPLED), False, "Turn the patient"),
+        (turned(ToolInHand.STYLET, samples=SAMPLED), None, "turn the patient (Alt+J)"),
+        (turned(ToolInHand.STYLET, samples=SAMPLED, rolled=True), False, "Enter ends"),
+    ],
+)
+def test_the_line_over_the_views_says_them(
+    shown: ProcedureState, inside: bool | None, words: str
+) -> None:
+    step = NextStep(StepKind.PROCEDURE, procedure=shown, inside=inside)
+    assert words in step_words(step, by_mouse=True)

@@ -2,58 +2,36 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import QComboBox, QWidget
 
 from app.imaging.field.tissue_words import tissue_words
 from app.session.ablation import AblationState
 from app.session.ablation_shown import AblationShown, MarginsShown
 from app.session.procedure import ProcedureState, Step, ToolInHand
-from app.views.kit import theme
-from app.views.kit.parts import FittingButton, PlainLabel
+from app.views.exercise.step_panel import (
+    StepPanel,
+    first_of,
+    other_step,
+    shared_results,
+    shared_words,
+)
 from app.views.kit.text import literal, number, tr, translated
 
 
-class AblationPanel(QWidget):
-    """Offers the step that follows; hidden where the exercise ablates nothing.
-
-    Signals:
-        asked(Step, int, float): do this, by this row of the generator's table.
-    """
-
-    asked = Signal(object, int, float)
+class AblationPanel(StepPanel):
+    """Offers the step that follows; hidden where the exercise ablates nothing."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._state: ProcedureState | None = None
-        self._step: Step | None = None
         self._shown: tuple[object, ...] = ()
-        self.held, self.results = PlainLabel(self), PlainLabel(self)
-        self.next, self.setting = FittingButton(""), QComboBox(self)
-        # A button that keeps the focus would swallow the pad's keys.
-        self.next.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.next.setMinimumHeight(theme.CONTROL_HEIGHT)
-        self.next.setToolTip(literal(tr("What follows in the usual order")))
-        self.next.clicked.connect(self._ask)
+        self.setting = QComboBox(self)
         self.setting.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setting.setAccessibleName(tr("Power and time of the generator"))
-        self._key = QShortcut(QKeySequence("J"), self)
-        self._key.setAutoRepeat(False)
-        self._key.activated.connect(self.next.click)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        for widget in (self.held, self.next, self.setting, self.results):
-            column.addWidget(widget)
-        self.held.setWordWrap(True)
-        self.results.setWordWrap(True)
+        for widget in (self.held, self.next, self.other, self.setting, self.results):
+            self._column.addWidget(widget)
         self._enable(None)
         self.hide()
-
-    def listen(self, page: QWidget) -> None:
-        """Let the key work wherever `page` is shown."""
-        self._key.setParent(page)
 
     def show_ablation(
         self, state: ProcedureState | None, commands: bool, inside: bool | None = False
@@ -105,23 +83,27 @@ class AblationPanel(QWidget):
         # Where nobody is told, the key does what is usual: one deposit, then the electrode.
         injects = not state.deposits if inside is None else inside
         wanted = (
+            first_of(state, possible),
             Step.INJECT if injects else Step.TAKE_NEEDLE,
             None if inside is False else Step.PLACE_ELECTRODE,
             Step.ABLATE,
+            None if inside is True else Step.ROLL_OVER,
         )
         self._step = next((step for step in wanted if step in possible), None)
         self.next.setText(_words(self._step, ablation))
-        self._enable(self._step)
+        self._enable(self._step, other_step(state, possible, inside))
         self.setting.setEnabled(ablation.reached is None)
-        self.results.setText("\n".join(results(AblationShown.of_state(ablation))))
+        lines = shared_results(state) + results(AblationShown.of_state(ablation))
+        self.results.setText("\n".join(lines))
 
-    def _enable(self, step: Step | None) -> None:
+    def _enable(self, step: Step | None, beside: Step | None = None) -> None:
         self.next.setEnabled(step is not None)
-        self._key.setEnabled(step is not None)
+        self._offer_other(beside)
+        self._follow_buttons()
 
-    def _ask(self) -> None:
-        if self._step is not None:
-            self.asked.emit(self._step, max(0, self.setting.currentIndex()), 0.0)
+    def _ask(self, step: Step | None) -> None:
+        if step is not None:
+            self.asked.emit(step, max(0, self.setting.currentIndex()), 0.0)
 
 
 def of_electrodes(
@@ -143,8 +125,8 @@ def _standing(ablation: AblationState) -> str:
 
 
 def _words(step: Step | None, ablation: AblationState) -> str:
-    if step is Step.INJECT:
-        return tr("Give local anaesthetic (J)")
+    if words := shared_words(step):
+        return words
     if step is Step.TAKE_NEEDLE:
         return tr("Take the electrode (J)")
     if step is Step.PLACE_ELECTRODE:

@@ -22,6 +22,7 @@ from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import HandName, Lock
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
+from app.exercises.taught import taught_words
 from app.imaging.field.tissue_words import tissue_words
 from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
@@ -309,7 +310,7 @@ class BriefingPage(QWidget):
         self.title, self.kind = label("", "title"), label("", "dim")
         self.description = label()
         self.attempts = label()
-        self.scored, self.locked, self.aids = (BulletLabel() for _ in range(3))
+        self.taught, self.scored, self.locked, self.aids = (BulletLabel() for _ in range(4))
         self.views = tuple(PortraitView(name, self) for name in ("axial", "coronal", "sagittal"))
         self.begin = _key_button(tr("Begin (Enter)"), "primary")
         self.show_me = _key_button(tr("Show me (D)"))
@@ -333,6 +334,7 @@ class BriefingPage(QWidget):
         self.description.setText(
             declared(exercise.description) or tr("Insert the needle to the target.")
         )
+        self.taught.show_items([translated(words) for words in taught_words(exercise)])
         self.scored.show_items(scored_words(exercise))
         self.locked.show_items(locked_words(exercise))
         self.aids.show_items(aid_words(exercise, ACCESS.role))
@@ -390,6 +392,7 @@ class BriefingPage(QWidget):
         column.setSpacing(theme.SPACING // 2)
         column.addWidget(self.description)
         for heading, part in (
+            (tr("Steps that it teaches"), self.taught),
             (tr("What is scored"), self.scored),
             (tr("What helps"), self.aids),
             (tr("What is locked"), self.locked),

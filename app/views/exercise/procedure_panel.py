@@ -7,15 +7,23 @@ from __future__ import annotations
 from typing import Final
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QComboBox, QGridLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
 
 from app.scoring.complications.answers import ANSWER_WORDS, Reaction
 from app.scoring.procedure import SampleMark
 from app.session.complications import ComplicationsState
 from app.session.procedure import ProcedureState, Step
+from app.views.exercise.step_panel import (
+    KeyedPanel,
+    StepPanel,
+    first_of,
+    other_step,
+    shared_results,
+    shared_words,
+    step_button,
+)
 from app.views.kit import theme
-from app.views.kit.parts import FittingButton, PlainLabel
+from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, number, tr, translated
 
 NEXT: Final = (
@@ -25,6 +33,7 @@ NEXT: Final = (
     Step.GUN_IN,
     Step.GUN_OUT,
     Step.STYLET_IN,
+    Step.ROLL_OVER,
 )
 """What the key of the next step does, the first of these that can be done; the gun has its own."""
 
@@ -32,32 +41,17 @@ CLOCK: Final = (0.0, 90.0, 180.0, 270.0)
 """Directions of the notch, clockwise as seen from the hub."""
 
 
-class ProcedurePanel(QWidget):
-    """Offers the steps that can follow; hidden where the exercise has none.
-
-    Signals:
-        asked(Step, int, float): do this, by this setting of the gun, the notch turned so [°].
-    """
-
-    asked = Signal(object, int, float)
+class ProcedurePanel(StepPanel):
+    """Offers the steps that can follow; hidden where the exercise has none."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._state: ProcedureState | None = None
-        self._step: Step | None = None
         self._shown: tuple[ProcedureState | None, bool, bool | None] = None, False, False
-        self.held, self.results = PlainLabel(self), PlainLabel(self)
-        self.next, self.fire = _button(), _button()
+        self.fire = step_button()
         self.throw, self.notch = QComboBox(self), QComboBox(self)
-        self._keys: list[tuple[QShortcut, QPushButton]] = []
         self._prepare()
         self._lay_out()
         self.hide()
-
-    def listen(self, page: QWidget) -> None:
-        """Let the keys work wherever `page` is shown."""
-        for shortcut, _ in self._keys:
-            shortcut.setParent(page)
 
     def show_procedure(
         self, state: ProcedureState | None, commands: bool, inside: bool | None = False
@@ -78,6 +72,7 @@ class ProcedurePanel(QWidget):
             self._show(state, commands, inside)
         elif state is None:
             self._state, self._shown = None, (None, False, False)
+            self._offer_other(None)
             self._enable(set())
 
     def _offer_settings(self, state: ProcedureState) -> None:
@@ -102,15 +97,23 @@ class ProcedurePanel(QWidget):
         # After its throw the gun comes out; after a sample the stylet goes back before the next.
         # Where nobody is told, the key does what is usual: one deposit, then the outer needle.
         injects = not state.deposits if inside is None else inside
+        beside = other_step(state, possible, inside)
         possible.discard(Step.TAKE_NEEDLE if injects else Step.INJECT)
         if not state.deposits:  # whoever presses the key at once has not begun yet
             possible.discard(Step.TAKE_NEEDLE)
-        order = [step for step in NEXT if step in possible]
+        if inside is not False:  # the key goes on with another sample
+            possible.discard(Step.ROLL_OVER)
+        elif Step.ROLL_OVER in possible:
+            possible.discard(Step.STYLET_OUT)
+        check = first_of(state, possible)
+        order = [check] if check else [step for step in NEXT if step in possible]
         if Step.GUN_IN in order and Step.STYLET_IN in order and self._step is Step.GUN_OUT:
             order.remove(Step.GUN_IN)
         self._step = order[0] if order else self._step
         self.next.setText(_words(self._step) if order else tr("Next step (J)"))
         self.next.setVisible(bool(order) or state.part.biopsy is not None)
+        self._offer_other(beside)  # in the gun's place, which nobody holds then
+        self.fire.setVisible(beside is None and state.part.biopsy is not None)
         self._enable(possible, bool(order))
         self.results.setText("\n".join((*self._warnings(state), *_results(state))))
         self.results.setVisible(bool(self.results.text()))
@@ -136,8 +139,7 @@ class ProcedurePanel(QWidget):
     def _enable(self, possible: set[Step], has_next: bool = False) -> None:
         self.next.setEnabled(has_next)
         self.fire.setEnabled(Step.FIRE in possible)
-        for shortcut, button in self._keys:
-            shortcut.setEnabled(button.isEnabled())
+        self._follow_buttons()
 
     def _ask(self, step: Step | None) -> None:
         if step is not None:
@@ -145,15 +147,11 @@ class ProcedurePanel(QWidget):
             self.asked.emit(step, number_of, float(turned))
 
     def _prepare(self) -> None:
-        self.held.setWordWrap(True)
-        self.results.setWordWrap(True)
-        self.next.clicked.connect(lambda: self._ask(self._step))
         self.fire.clicked.connect(lambda: self._ask(Step.FIRE))
         self.fire.setText(tr("Fire the gun (Ctrl+J)"))
         self.fire.setToolTip(
             literal(tr("The gun's needle runs ahead by its throw and brings back a core"))
         )
-        self.next.setToolTip(literal(tr("What follows in the usual order")))
         self.throw.setToolTip(tr("How far the gun's needle runs ahead of the outer needle's tip"))
         self.throw.currentIndexChanged.connect(lambda _: self._show_again())
         self.notch.setToolTip(
@@ -165,14 +163,8 @@ class ProcedurePanel(QWidget):
             self.notch.addItem(tr("{hour} o'clock", hour=hour), turned)
         for box in (self.throw, self.notch):
             box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        for key, button in (
-            ("J", self.next),
-            ("Ctrl+J", self.fire),
-        ):
-            shortcut = QShortcut(QKeySequence(key), self)
-            shortcut.setAutoRepeat(False)
-            shortcut.activated.connect(button.click)
-            self._keys.append((shortcut, button))
+        self._key("Ctrl+J", self.fire)
+        self._offer_other(None)
         self._enable(set())
 
     def set_narrow(self, narrow: bool) -> None:
@@ -193,22 +185,25 @@ class ProcedurePanel(QWidget):
         grid.setColumnStretch(1, 1)
 
     def _lay_out(self) -> None:
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
         self._settings = QWidget(self)
         self._titles = tuple(PlainLabel(words, self) for words in (tr("Throw"), tr("Notch")))
         self._grid = grid = QGridLayout(self._settings)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(4)
-        for widget in (self.held, self.next, self._settings, self.fire, self.results):
-            column.addWidget(widget)
+        for widget in (
+            self.held,
+            self.next,
+            self._settings,
+            self.fire,
+            self.other,
+            self.results,
+        ):
+            self._column.addWidget(widget)
         self.set_narrow(False)
 
 
 def _words(step: Step | None) -> str:
-    return {
-        Step.INJECT: tr("Give local anaesthetic (J)"),
+    return shared_words(step) or {
         Step.TAKE_NEEDLE: tr("Take the outer needle (J)"),
         Step.STYLET_OUT: tr("Stylet out (J)"),
         Step.GUN_IN: tr("Gun in (J)"),
@@ -219,7 +214,7 @@ def _words(step: Step | None) -> str:
 
 def _results(state: ProcedureState) -> list[str]:
     """Say what was given and taken, a line each."""
-    lines = []
+    lines = shared_results(state)
     if state.deposits:
         lines.append(tr("Local anaesthetic given: {n}×", n=state.deposits))
     biopsy = state.part.biopsy
@@ -244,15 +239,7 @@ def _sample_words(count: int, sample: SampleMark, least_mm: float) -> str:
     return words + hits
 
 
-def _button() -> QPushButton:
-    button = FittingButton("")
-    # A button that keeps the focus would swallow the pad's keys.
-    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-    button.setMinimumHeight(theme.CONTROL_HEIGHT)
-    return button
-
-
-class ComplicationPanel(QWidget):
+class ComplicationPanel(KeyedPanel):
     """Shows the patient's vital signs and offers the answers; hidden where nothing can happen.
 
     Signals:
@@ -267,17 +254,11 @@ class ComplicationPanel(QWidget):
         super().__init__(parent)
         self._shown: tuple[ComplicationsState | None, bool] = None, False
         self.vitals, self.given = PlainLabel(self), PlainLabel(self)
-        self.notice, self.answer = _button(), _button()
+        self.notice, self.answer = step_button(), step_button()
         self.choice = QComboBox(self)
-        self._keys: list[tuple[QShortcut, QPushButton]] = []
         self._prepare()
         self._lay_out()
         self.hide()
-
-    def listen(self, page: QWidget) -> None:
-        """Let the keys work wherever `page` is shown."""
-        for shortcut, _ in self._keys:
-            shortcut.setParent(page)
 
     def show_patient(self, state: ComplicationsState | None, commands: bool) -> None:
         """Show how the patient is, or nothing.
@@ -300,8 +281,7 @@ class ComplicationPanel(QWidget):
     def _enable(self, can_be: bool) -> None:
         for widget in (self.notice, self.answer, self.choice):
             widget.setEnabled(can_be)
-        for shortcut, _ in self._keys:
-            shortcut.setEnabled(can_be)
+        self._follow_buttons()
 
     def _prepare(self) -> None:
         self.vitals.setWordWrap(True)
@@ -329,18 +309,12 @@ class ComplicationPanel(QWidget):
         self.choice.view().setMinimumWidth(widest + 2 * theme.SPACING)
         self.notice.clicked.connect(self.noticed)
         self.answer.clicked.connect(lambda: self.answered.emit(self.choice.currentData()))
-        for key, button in (("Shift+J", self.notice), ("Ctrl+Shift+J", self.answer)):
-            shortcut = QShortcut(QKeySequence(key), self)
-            shortcut.setAutoRepeat(False)
-            shortcut.activated.connect(button.click)
-            self._keys.append((shortcut, button))
+        self._key("Shift+J", self.notice)
+        self._key("Ctrl+Shift+J", self.answer)
         self._enable(False)
 
     def _lay_out(self) -> None:
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
         title = PlainLabel(tr("Patient"), self)
         title.setProperty("role", "heading")
         for widget in (title, self.vitals, self.notice, self.choice, self.answer, self.given):
-            column.addWidget(widget)
+            self._column.addWidget(widget)

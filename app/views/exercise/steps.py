@@ -13,6 +13,7 @@ from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, Step
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
 from app.views.exercise.run import ExerciseRun
+from app.views.exercise.step_panel import first_of, shared_words
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import listing, literal, number, tr
@@ -179,6 +180,12 @@ def procedure_words(state: ProcedureState, inside: bool | None) -> str:
         state: how the attempt stands with them.
         inside: whether the tip is in the body; None where nobody is told.
     """
+    if (check := _check_words(state)) and not inside:
+        return check
+    if state.rolled:
+        return tr("The patient is turned: Enter ends the attempt")
+    if state.ablation is not None and state.ablation.reached is not None:
+        return tr("Needle out: turn the patient (J)")
     if state.ablation is not None and state.tool is ToolInHand.ELECTRODE:
         if state.ablation.all_placed:
             return tr("Start the generator (J)")
@@ -189,10 +196,16 @@ def procedure_words(state: ProcedureState, inside: bool | None) -> str:
         return tr("Leave electrode {n} here (J)", n=state.ablation.number)
     if state.tool is ToolInHand.ANAESTHETIC and state.deposits:
         if inside is None:
-            return tr("Draw the needle out, then take the next one (J)")
+            return tr("Draw the needle out, then take the next one (J); or give more (Alt+J)")
         if inside:
             return tr("Draw the needle out, or give more (J)")
         return tr("Take the outer needle (J)")
+    if state.tool is ToolInHand.STYLET and state.samples and state.part.rollover is not None:
+        if inside is None:
+            return tr("Stylet out (J) for another; or draw out and turn the patient (Alt+J)")
+        if inside:
+            return tr("Stylet out (J) for another; or draw the needle out")
+        return tr("Turn the patient puncture side down (J)")
     if state.tool is ToolInHand.STYLET and state.samples:
         return tr("Another sample: stylet out (J). Enter ends the attempt")
     return {
@@ -204,6 +217,12 @@ def procedure_words(state: ProcedureState, inside: bool | None) -> str:
         ToolInHand.GUN: tr("Hold still and fire (Ctrl+J)"),
         ToolInHand.FIRED: tr("Gun out (J)"),
     }[state.tool]
+
+
+def _check_words(state: ProcedureState) -> str:
+    """Say what of the checklist is next; empty once it is done, or too late."""
+    step = first_of(state, state.possible)
+    return "" if step is None else shared_words(step)
 
 
 def breath_words(breath: BreathHold, words: str, commands: bool) -> str:

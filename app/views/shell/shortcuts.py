@@ -88,6 +88,7 @@ def groups(
                 ),
                 ("S", tr("control scan")),
                 ("(Shift+) J, Ctrl+J", tr("next step, fire the gun (something is wrong, do it)")),
+                ("Alt+J", tr("another step in its place")),
                 (tr("Enter"), tr("end the attempt")),
                 ("Ctrl+B, Ctrl+T", tr("in an attempt: all panels; live pictures or the scan")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
