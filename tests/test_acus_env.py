@@ -55,6 +55,7 @@ def test_the_names_and_arguments_are_these():
     assert len(OBSERVED) == 11
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("action", ACTIONS)
 @pytest.mark.parametrize("reward", REWARDS)
 def test_gymnasiums_checker_finds_nothing_wrong(action, reward):
@@ -64,6 +65,7 @@ def test_gymnasiums_checker_finds_nothing_wrong(action, reward):
     env.close()
 
 
+@pytest.mark.long("journey")
 def test_the_same_seed_and_actions_give_the_same_to_the_last_bit():
     random = np.random.default_rng(3)
     actions = random.uniform(-1.0, 0.89, (150, 4)).astype(np.float32)
@@ -81,6 +83,7 @@ def test_the_same_seed_and_actions_give_the_same_to_the_last_bit():
     assert runs[0][0] != runs[0][301]
 
 
+@pytest.mark.long("journey")
 def test_two_at_once_do_not_meet():
     alone, first, second = made(), made(), made(action="force")
     for one in (alone, first):
@@ -119,6 +122,7 @@ def test_the_needle_goes_where_the_hand_does_at_its_speed(env):
     assert gone == pytest.approx(2.0 * 0.5 * 0.020, abs=0.003)  # seconds, share, m/s; skin dents
 
 
+@pytest.mark.long("journey")
 def test_without_guidance_it_turns_at_the_speed_of_the_hand():
     alone = layered("first-insertion").model_copy(update={"assistance": 0.0})
     env = Insertion(alone)
@@ -133,6 +137,7 @@ def test_without_guidance_it_turns_at_the_speed_of_the_hand():
     env.close()
 
 
+@pytest.mark.long("journey")
 def test_a_force_is_what_the_hand_presses_with_at_most_and_against_a_stop():
     env, most = made(action="force", seconds=30.0), 0.0
     env.reset(seed=5)
@@ -156,6 +161,7 @@ def test_shaping_is_what_it_came_nearer_and_no_more():
     assert env._left < begun - 0.2
 
 
+@pytest.mark.long("journey")
 def test_a_scripted_experts_attempt_is_scored_as_the_trials_do():
     """Steer by the hands that an expert had: the loop's own way, with the trials' score."""
     on = Resolved.of(layered("first-insertion"))
@@ -206,6 +212,7 @@ def test_an_action_that_is_no_number_is_refused(env):
         env.step(np.array([np.nan, 0.0, 0.0, -1.0], np.float32))
 
 
+@pytest.mark.long("journey")
 def test_without_the_extra_its_name_is_told():
     code = "import sys; sys.modules['gymnasium'] = None; import acus, acus.env"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)

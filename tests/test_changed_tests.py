@@ -6,6 +6,7 @@ from tools import changed_tests
 from tools.changed_tests import ALWAYS, PAGES, ROOT, changed_files
 
 
+@pytest.mark.long("journey")
 def test_a_module_reaches_the_tests_of_its_layer_and_above_only():
     picked = set(changed_tests.tests_for(["app/imaging/window.py"]))
     assert "tests/imaging/test_imaging_window.py" in picked

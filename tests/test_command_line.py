@@ -77,12 +77,14 @@ def test_help_loads_no_room():
     assert result.stdout.strip() == "[]"
 
 
+@pytest.mark.long("journey")
 def test_an_unknown_command_is_one_line_and_exit_code_2():
     result = acus("dance")
     assert result.returncode == 2
     assert one_line(result.stderr)
 
 
+@pytest.mark.long("journey")
 def test_a_path_that_does_not_exist_is_one_line_and_exit_code_2(tmp_path):
     result = acus("ct", "list", tmp_path / "nowhere")
     assert result.returncode == 2
@@ -91,6 +93,7 @@ def test_a_path_that_does_not_exist_is_one_line_and_exit_code_2(tmp_path):
     assert "Traceback" not in result.stderr
 
 
+@pytest.mark.long("journey")
 def test_a_demonstration_of_an_exercise_that_there_is_not_names_those_that_there_are(tmp_path):
     done = acus("demo", "--headless", "--exercise", "nothing", "--out", tmp_path)
     assert done.returncode == 2
@@ -107,6 +110,7 @@ def mine(tmp_path, **changes):
     return path
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("given", ["mine.yaml", "first-insertion"])
 def test_a_demonstration_is_of_the_exercise_of_a_file_or_of_a_name(tmp_path, monkeypatch, given):
     mine(tmp_path)
@@ -140,6 +144,7 @@ def test_a_demonstration_of_a_file_that_is_not_there_or_wrong_says_so_in_one_lin
         assert words in done.stderr
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("named", "words"),
     [("no.yaml", "cannot read"), ("laparoscopic-tool", "targets are touched")],
@@ -172,6 +177,7 @@ def test_a_demonstration_on_a_folder_without_ct_is_refused_at_once(tmp_path):
     assert "note.txt" in result.stderr
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -187,6 +193,7 @@ def test_a_window_is_not_opened_for_what_is_not_there(arguments, words):
     assert one_line(result.stderr)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
 @pytest.mark.parametrize(
     "words", [["exercise", "list"], ["--help"], ["exercise", "list", "--json"]]
@@ -200,6 +207,7 @@ def test_a_full_disk_behind_the_output_is_one_line_and_exit_code_2(words):
     assert "No space left" in done.stderr
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("words", [["exercise", "list"], ["session", "list"], ["--help"]])
 def test_a_closed_output_is_no_fault_of_the_program(words):
     command = f"exec {shlex.quote(sys.executable)} -m app {' '.join(words)} >&-"
@@ -207,6 +215,7 @@ def test_a_closed_output_is_no_fault_of_the_program(words):
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("words", [["exercise", "list"], ["--help"]])
 def test_a_reader_that_goes_early_ends_the_program_quietly(words):
     command = [sys.executable, "-u", "-m", "app", *words]

@@ -19,6 +19,7 @@ def values(score):
     return {row.name: row.value for row in score.rows}
 
 
+@pytest.mark.long("machine")
 def test_an_expert_reaches_the_wanted_margin_and_passes_and_a_novice_does_not(prepared):
     exercise, placed, field = prepared
     trials = Trials(exercise, placed, tissues=field)

@@ -149,6 +149,7 @@ def stopped(field: TissueField, tmp_path_factory: pytest.TempPathFactory) -> Any
     return (*attempt(tmp_path_factory.mktemp("rib"), chosen, plan, field, 30.0), plan, field)
 
 
+@pytest.mark.long("machine")
 def test_a_needle_on_a_path_through_a_rib_is_stopped_where_the_rib_begins(stopped: Any) -> None:
     _, rows, plan, own = stopped
     from app.imaging.field.walking import walk
@@ -166,6 +167,7 @@ def test_a_needle_on_a_path_through_a_rib_is_stopped_where_the_rib_begins(stoppe
     assert np.isfinite(rows).all()
 
 
+@pytest.mark.long("machine")
 def test_the_rib_is_told_with_its_depth_and_its_force_and_fails_the_attempt(stopped: Any) -> None:
     recording, rows, plan, own = stopped
     from app.imaging.field.walking import walk
@@ -189,6 +191,7 @@ def test_the_rib_is_told_with_its_depth_and_its_force_and_fails_the_attempt(stop
     assert next(row.value for row in score.rows if row.name == "bone_force") == strongest
 
 
+@pytest.mark.long("machine")
 def test_the_loops_own_state_tells_the_same_and_finds_a_judge_that_is_wrong(stopped: Any) -> None:
     recording, rows, _, own = stopped
     placed, walked = recording.placed_plan(), recording.trajectory().met
@@ -210,6 +213,7 @@ def test_the_loops_own_state_tells_the_same_and_finds_a_judge_that_is_wrong(stop
     assert disagreements(walked, None) == ()
 
 
+@pytest.mark.long("machine")
 def test_a_replay_needs_no_ct_and_is_the_same_to_the_last_bit(stopped: Any) -> None:
     recording, _, _, own = stopped
     assert recording.metadata[FIELD] == {"digest": own.digest, "patient_data": "yes"}
@@ -220,6 +224,7 @@ def test_a_replay_needs_no_ct_and_is_the_same_to_the_last_bit(stopped: Any) -> N
     assert report.ticks > 29_000
 
 
+@pytest.mark.long("machine")
 def test_a_record_whose_field_is_missing_damaged_or_another_is_refused(stopped: Any) -> None:
     recording = stopped[0]
     files = dict(recording.attachments)
@@ -244,6 +249,7 @@ def test_an_exercise_of_before_keeps_its_layers() -> None:
     assert Exercise.model_validate(older).tissue is TissueSource.LAYERS
 
 
+@pytest.mark.long("machine")
 def test_an_exercise_without_the_field_that_it_asks_for_is_refused(field: TissueField) -> None:
     chosen = exercise()
     profile = device_of(chosen)
@@ -259,6 +265,7 @@ def test_the_author_is_told_what_is_simulated_in_a_field_before_it_is_made() -> 
     assert {"tissue_field", "bone_slide"} <= why.keys()
 
 
+@pytest.mark.long("machine")
 def test_what_needles_within_reach_meet_decides_between_layers_and_the_field(
     patient: Volume,
 ) -> None:

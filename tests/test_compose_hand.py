@@ -73,6 +73,7 @@ def test_no_movement_voids_an_attempt(
         student.close()
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("dial", [1.0, 0.5, 0.0, -1.0])
 @pytest.mark.parametrize(
     "moves",
@@ -208,6 +209,7 @@ governor takes the needle that swings in the hand's springs for one let go. A ha
 in a pause does not come to it: here it is let move."""
 
 
+@pytest.mark.long("machine")
 def test_a_needle_that_swings_in_the_simulated_hand_pauses_the_attempt_and_voids_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -86,6 +86,7 @@ def until(what, seconds=3.0):
     return found
 
 
+@pytest.mark.long("machine")
 def test_the_board_tells_the_pose_that_is_recorded_and_its_age(run, board):
     assert not board.now().running
     board.attach(run, None)
@@ -107,6 +108,7 @@ def test_the_board_tells_the_pose_that_is_recorded_and_its_age(run, board):
     np.testing.assert_allclose(on_fulcrum, run.rig.profile.fulcrum, atol=1e-12)
 
 
+@pytest.mark.long("machine")
 def test_a_needle_that_nobody_sees_is_out_of_view_and_one_that_stands_still_too_old(run, board):
     board.attach(run, None)
     run.go(0.5)
@@ -117,6 +119,7 @@ def test_a_needle_that_nobody_sees_is_out_of_view_and_one_that_stands_still_too_
     assert board.now().needle.validity is Validity.REQ_TIMEOUT
 
 
+@pytest.mark.long("machine")
 def test_under_control_scans_a_link_is_told_no_more_than_the_student(tmp_path, board):
     run = Run(tmp_path, "scans-only")
     try:
@@ -162,6 +165,7 @@ def test_surfaces_that_nobody_asks_for_are_not_made(run, board, volume_of_phanto
     assert board.now().surfaces == ()
 
 
+@pytest.mark.long("machine")
 def test_events_come_without_names_paths_and_pseudonyms(run, board):
     board.attach(run, None)
     run.trainer.begin("STUDENT-7F3A")
@@ -179,6 +183,7 @@ def test_events_come_without_names_paths_and_pseudonyms(run, board):
     assert [event.number for event in found] == sorted(event.number for event in found)
 
 
+@pytest.mark.long("machine")
 def test_a_control_scan_becomes_a_picture_with_the_needle_in_it(run, board, volume_of_phantom):
     board.attach(run, volume_of_phantom)
     run.trainer.begin("student")
@@ -209,6 +214,7 @@ def test_another_run_is_not_let_go_with_the_one_before(run, board):
     assert not board.now().running
 
 
+@pytest.mark.long("machine")
 def test_a_plan_is_handed_to_whoever_may_take_it_and_to_nobody_during_an_attempt(run, board):
     points = np.zeros(3), np.ones(3)
     assert "instructor's window" in board.place(*points)
@@ -232,6 +238,7 @@ def test_a_clock_that_is_set_moves_the_times_once_and_is_said():
     assert JUMP == 0.5
 
 
+@pytest.mark.long("machine")
 def test_the_attempt_is_the_same_to_the_bit_with_links_and_without(tmp_path):
     rows = []
     for links in (False, True):

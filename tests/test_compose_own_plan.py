@@ -87,6 +87,7 @@ def legal() -> Any:
     return ~np.isin(patient().scores.block, blocked)
 
 
+@pytest.mark.long("machine")
 def test_an_arbitrary_entry_scores_far_less_than_the_planners_best() -> None:
     """All that an attempt can begin with: with or without a rib, lung or vessel on the way."""
     seen = patient()
@@ -101,6 +102,7 @@ def test_an_arbitrary_entry_scores_far_less_than_the_planners_best() -> None:
     assert best_total >= 90.0
 
 
+@pytest.mark.long("machine")
 def test_one_that_meets_nothing_is_no_good_plan_for_that_alone() -> None:
     seen = patient()
     totals = [perfect(seen.scores.entries_mm[n]).total for n in drawn(seen.scores.free)]
@@ -199,6 +201,7 @@ def tilt_of(entry_mm: Any, target_mm: Any) -> float:
     return float(np.degrees(np.arccos(cosine)))
 
 
+@pytest.mark.long("machine")
 def test_room_angle_and_points_are_those_of_the_distances_that_the_patient_is_drawn_by() -> None:
     """By the rule that is written: lengths to 120 mm, angles to 65°, room to 10 mm, one, one, two.
 

@@ -101,6 +101,7 @@ def test_the_same_hand_scores_the_same_on_a_slow_computer(
     assert total_of(result) == pytest.approx(in_virtual_time(name), abs=POINTS)
 
 
+@pytest.mark.long("machine")
 def test_time_stands_while_a_picture_is_drawn_and_no_picture_is_missed(tmp_path: Path) -> None:
     rig = rig_of("first-insertion", slow(50.0), tmp_path)
     times: list[float] = []
@@ -151,6 +152,7 @@ def test_a_hand_that_the_window_leads_step_by_step_is_waited_for(tmp_path: Path)
     assert first == pytest.approx(second, abs=POINTS)
 
 
+@pytest.mark.long("machine")
 def test_that_the_computer_was_slow_is_told_in_the_record_of_the_attempt(tmp_path: Path) -> None:
     rig = rig_of("first-insertion", slow(200.0), tmp_path)
     rig.trainer.open()
@@ -168,6 +170,7 @@ def test_that_the_computer_was_slow_is_told_in_the_record_of_the_attempt(tmp_pat
     assert told[0].message.startswith("this computer was too slow by ")
 
 
+@pytest.mark.long("machine")
 def test_a_run_that_is_closed_while_time_stands_ends_at_once(tmp_path: Path) -> None:
     clock = slow(1.0)
     rig = rig_of("first-insertion", clock, tmp_path)
@@ -198,6 +201,7 @@ def _by_a_person(rig: Rig) -> None:
     look(1.0)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.timeout(900)  # where kernels are compiled first
 def test_a_person_s_attempt_on_a_slow_computer_is_slowed_never_paused_or_void(
     tmp_path: Path,
@@ -211,6 +215,7 @@ def test_a_person_s_attempt_on_a_slow_computer_is_slowed_never_paused_or_void(
     assert [event for event in events if event.kind == SLOWED]
 
 
+@pytest.mark.long("machine")
 def test_a_window_that_is_gone_for_good_lets_time_go_on_and_the_force_off(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -230,6 +235,7 @@ def test_a_window_that_is_gone_for_good_lets_time_go_on_and_the_force_off(
         rig.close()
 
 
+@pytest.mark.long("machine")
 def test_a_person_s_world_leaves_pictures_out_before_it_gets_slower(tmp_path: Path) -> None:
     """At 50 times the wall's pace a pair of pictures takes far longer than its share."""
     apart = []
@@ -253,6 +259,7 @@ def test_a_person_s_world_leaves_pictures_out_before_it_gets_slower(tmp_path: Pa
     assert apart[1] < 6.0  # the depth is never lost for it
 
 
+@pytest.mark.long("machine")
 def test_a_person_does_not_wait_for_the_first_picture_of_a_start() -> None:
     """A start may compile for a minute: seen, a needle that stood for 60 s before its way out."""
     for every in (True, False):

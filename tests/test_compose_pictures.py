@@ -89,6 +89,7 @@ def _views():
     return declared_views()
 
 
+@pytest.mark.long("machine")
 def test_explain_says_by_whom_they_are_used_and_their_time_for_each_picture():
     exercise = asking(camera_blur={}, ball_joint={})
     found = {one["effect"]: one for one in explanation(exercise)["simulated"]}
@@ -135,6 +136,7 @@ def test_in_the_loop_a_lost_picture_hides_and_a_dim_one_is_noisier():
     assert 0.5 * clear < seen(half) < 0.9 * clear
 
 
+@pytest.mark.long("machine")
 def test_a_trial_is_what_it_was_without_them_and_another_with_them():
     def score(exercise):
         placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))

@@ -32,6 +32,7 @@ def biopsy() -> Any:
     return SimpleNamespace(exercise=exercise, placed=placed, field=field, trials=trials)
 
 
+@pytest.mark.long("machine")
 def test_the_steps_of_an_expert_are_all_done_in_their_order() -> None:
     seen = biopsy()
     result = attempt(
@@ -53,6 +54,7 @@ def test_the_steps_of_an_expert_are_all_done_in_their_order() -> None:
     assert values["hub_open_time"] == pytest.approx(4.8, abs=0.3)
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_that_runs_without_a_trainer_is_scored_as_one_with_it() -> None:
     seen = biopsy()
     quick = Trials(seen.exercise, seen.placed, tissues=seen.field, script=Script.QUICK)

@@ -53,6 +53,7 @@ def cost(seconds):
     return (time.process_time() - began) / (time.monotonic() - wall)
 
 
+@pytest.mark.long("machine")
 def test_at_rest_nothing_ticks_or_draws_and_little_is_computed(rig):
     threads = threading.active_count()
     assert rig.trainer.resting.rest()
@@ -63,6 +64,7 @@ def test_at_rest_nothing_ticks_or_draws_and_little_is_computed(rig):
     assert rig.trainer.snapshot() is shown
 
 
+@pytest.mark.long("machine")
 def test_a_moved_hand_has_them_run_and_the_needle_measured_again(rig):
     rig.trainer.resting.rest()
     depth = float(rig.trainer.snapshot().pose.depth)
@@ -73,6 +75,7 @@ def test_a_moved_hand_has_them_run_and_the_needle_measured_again(rig):
     assert not [event for event in rig.trainer.events.drain() if event.kind == "slept"]
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_begins_out_of_a_rest_and_none_rests_while_it_runs(rig):
     rig.trainer.resting.rest()
     time.sleep(2.5)
@@ -97,6 +100,7 @@ def test_an_attempt_begins_out_of_a_rest_and_none_rests_while_it_runs(rig):
     assert rig.trainer.resting.rest()
 
 
+@pytest.mark.long("machine")
 def test_a_plan_that_is_moved_out_of_a_rest_is_seen(rig):
     rig.trainer.resting.rest()
     other = Plan(np.array([0.0, -100.0, 0.0]), np.array([-12.0, -40.0, 4.0]), "other")
@@ -105,6 +109,7 @@ def test_a_plan_that_is_moved_out_of_a_rest_is_seen(rig):
     wait(lambda: np.allclose(rig.trainer.snapshot().p_target, moved.setup.placed.p_target))
 
 
+@pytest.mark.long("machine")
 def test_a_real_robot_and_a_script_in_paced_time_never_rest(tmp_path):
     from app.compose.emulator import Emulator, EmulatorSetup
 

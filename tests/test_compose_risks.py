@@ -48,6 +48,7 @@ def test_a_risk_has_the_distances_of_its_structure(volume: Volume, file: Path) -
     assert risk.field.along((5, 0, 14), (5, 29, 14)).distance_mm == pytest.approx(4.5, abs=1e-6)
 
 
+@pytest.mark.long("machine")
 def test_what_cannot_be_measured_is_named(volume: Volume, file: Path, tmp_path: Path) -> None:
     assert load_risks(load_exercise("first-insertion"), None) == ()
     assert load_risks(exercise(file), None) == ()  # shown only

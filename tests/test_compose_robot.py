@@ -145,6 +145,7 @@ class KeptOn(MemoryLink):
             super().open()
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_on_a_board_in_memory_stays_below_the_cap(tmp_path, monkeypatch):
     monkeypatch.setenv("ACUS_DATA", str(tmp_path / "data"))
     start = initial_plant(PROFILE, UPRIGHT, -0.015)
@@ -192,6 +193,7 @@ def test_an_attempt_on_a_board_in_memory_stays_below_the_cap(tmp_path, monkeypat
     assert conditions.kind is DeviceKind.EMULATED
 
 
+@pytest.mark.long("machine")
 def test_a_device_that_was_not_commissioned_refuses_an_attempt_and_says_why(emulator, tmp_path):
     rig = build_rig(setup(emulator.path, tmp_path))
     try:

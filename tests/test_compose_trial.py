@@ -148,6 +148,7 @@ def trials(first):
     return Trials(*first)
 
 
+@pytest.mark.long("machine")
 def test_five_skills_are_scored_in_their_order(trials):
     assert list(SKILLS) == ["novice", "beginner", "competent", "proficient", "expert"]
     scores = [trials.score(skill, 1).score for skill in SKILLS]
@@ -252,6 +253,7 @@ def test_covering_the_cameras_until_the_needle_is_in_costs_what_was_not_seen(fir
     assert tracked["covered"] < 75.0
 
 
+@pytest.mark.long("machine")
 def test_the_cameras_in_the_loop_are_as_noisy_as_the_sampled_tracker(first, trials):
     exercise, placed = first
     rig, profile = load_rig(exercise.rig), device_of(exercise)
@@ -286,6 +288,7 @@ def test_the_cameras_in_the_loop_are_as_noisy_as_the_sampled_tracker(first, tria
         assert np.std(seen[fresh] - depth) == pytest.approx(sd, rel=0.25)
 
 
+@pytest.mark.long("machine")
 def test_the_depth_is_measured_as_in_a_real_attempt(results):
     for result in results.values():
         assert result.score.row("tracking_valid").value > 95.0
@@ -302,6 +305,7 @@ def test_a_trial_leaves_nothing_behind_and_is_the_same_twice(first, trials, resu
     assert not list(paths.sessions().glob("*"))
 
 
+@pytest.mark.long("machine")
 def test_a_recorded_attempt_is_led_again_by_the_scripted_hand(first, results):
     """What a demonstration shows of it: the novice's movement, not the expert's."""
     exercise, placed = first

@@ -60,6 +60,7 @@ def wanted(student: Student) -> tuple[float, float, float]:
     return x, y, depth
 
 
+@pytest.mark.long("machine")
 def test_every_attempt_begins_off_the_path_elsewhere_and_the_same_for_a_seed(
     student: Student,
 ) -> None:
@@ -76,6 +77,7 @@ def test_every_attempt_begins_off_the_path_elsewhere_and_the_same_for_a_seed(
     assert make_ready(student) == pytest.approx(starts[0], abs=2e-3)
 
 
+@pytest.mark.long("machine")
 def test_the_clock_runs_from_the_first_movement_of_the_hand(student: Student) -> None:
     make_ready(student)
     for _ in range(100):
@@ -116,6 +118,7 @@ def rows_of_a_hand_at_rest(student: Student, level: int, seconds: int = 20) -> n
     return np.concatenate(parts)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("level", [1, 5])
 def test_the_tremor_has_the_band_and_the_size_that_were_measured(
     student: Student, level: int
@@ -132,6 +135,7 @@ def test_the_tremor_has_the_band_and_the_size_that_were_measured(
     assert rms == pytest.approx(asked, rel=0.25)
 
 
+@pytest.mark.long("machine")
 def test_pushing_bends_the_direction_and_rest_brings_no_such_turn(student: Student) -> None:
     rows = rows_of_a_hand_at_rest(student, 1, seconds=3)
     still = np.ptp(rows[:, [sv.UNSTEADY_X, sv.UNSTEADY_Y]], axis=0).max()
@@ -143,6 +147,7 @@ def test_pushing_bends_the_direction_and_rest_brings_no_such_turn(student: Stude
     assert np.hypot(row[sv.UNSTEADY_X], row[sv.UNSTEADY_Y]) > 2.0 * still
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_with_an_unsteady_hand_is_recomputed_to_the_last_bit(student: Student) -> None:
     make_ready(student)
     x, y, depth = wanted(student)
@@ -163,6 +168,7 @@ def test_an_attempt_with_an_unsteady_hand_is_recomputed_to_the_last_bit(student:
     assert not replay_recording(other).identical, "the seed is what the hand follows from"
 
 
+@pytest.mark.long("machine")
 def test_a_hand_that_takes_over_from_the_arm_is_as_unsteady_as_one_that_began(
     student: Student,
 ) -> None:
@@ -199,6 +205,7 @@ def test_a_hand_that_takes_over_from_the_arm_is_as_unsteady_as_one_that_began(
     student.trainer.end()
 
 
+@pytest.mark.long("machine")
 def test_a_steady_hand_is_recorded_as_such_and_has_no_noise(student: Student) -> None:
     chosen = student.rig.setup.exercise.model_copy(update={"unsteady_hand": 0, "level": 3})
     assert chosen.hand_level == 0
@@ -216,6 +223,7 @@ def test_a_steady_hand_is_recorded_as_such_and_has_no_noise(student: Student) ->
     assert replay_recording(recording).identical
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("unsteady", [None, 0, 4])
 def test_the_program_takes_the_hand_from_the_exercise(
     student: Student, unsteady: int | None
@@ -239,6 +247,7 @@ def test_no_real_robot_has_an_unsteady_hand(student: Student) -> None:
     assert isinstance(student.trainer, Trainer)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("exercise", "orders", "numbers"),
     [("first-insertion", True, True), ("thick-tissue", True, False), ("kidney", False, False),

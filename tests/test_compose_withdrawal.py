@@ -47,6 +47,7 @@ def wait_until_begun(student: Student) -> list[float]:
     raise AssertionError("the needle never came out")
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_after_one_that_ended_at_the_target_begins_outside(student: Student) -> None:
     student.trainer.begin()
     insert(student)
@@ -60,6 +61,7 @@ def test_an_attempt_after_one_that_ended_at_the_target_begins_outside(student: S
     assert "never crossed the skin" in second.score.void_reason
 
 
+@pytest.mark.long("machine")
 def test_the_needle_goes_back_at_a_hands_speed_and_the_window_says_so(student: Student) -> None:
     student.trainer.begin()
     insert(student)
@@ -127,6 +129,7 @@ def test_who_leads_the_needle_to_his_own_beginning_is_left_there(student: Studen
     assert start(student)[0] > 10.0
 
 
+@pytest.mark.long("machine")
 def test_twice_in_a_row_the_needle_can_be_inserted_anew(student: Student) -> None:
     for _ in range(2):
         student.trainer.begin()
@@ -139,6 +142,7 @@ def test_twice_in_a_row_the_needle_can_be_inserted_anew(student: Student) -> Non
         assert (states == "inserting").any()
 
 
+@pytest.mark.long("machine")
 def test_the_record_holds_the_way_out_and_the_score_leaves_it_out(student: Student) -> None:
     student.trainer.begin()
     insert(student)
@@ -159,6 +163,7 @@ def test_the_record_holds_the_way_out_and_the_score_leaves_it_out(student: Stude
     assert not recording.trajectory().running[withdrawing[: len(recording.trajectory())]].any()
 
 
+@pytest.mark.long("machine")
 def test_ended_at_once_it_was_never_begun(student: Student) -> None:
     student.trainer.begin()
     insert(student)
@@ -171,6 +176,7 @@ def test_ended_at_once_it_was_never_begun(student: Student) -> None:
     assert "never begun" in why
 
 
+@pytest.mark.long("machine")
 def test_start_twice_and_a_scan_meanwhile_are_refused(student: Student) -> None:
     student.trainer.begin()
     insert(student)
@@ -184,6 +190,7 @@ def test_start_twice_and_a_scan_meanwhile_are_refused(student: Student) -> None:
     assert student.trainer.scan() == 1
 
 
+@pytest.mark.long("machine")
 def test_broken_off_on_the_way_out_the_next_goes_on_outwards(student: Student) -> None:
     student.trainer.begin()
     insert(student)
@@ -199,6 +206,7 @@ def test_broken_off_on_the_way_out_the_next_goes_on_outwards(student: Student) -
     assert depth(student) < 0.0
 
 
+@pytest.mark.long("machine")
 def test_the_hand_obeys_nobody_while_it_brings_the_needle_out(student: Student) -> None:
     student.trainer.begin()
     insert(student)

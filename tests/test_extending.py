@@ -50,6 +50,7 @@ def test_every_how_to_of_the_page_has_a_test():
     assert all((ROOT / path).is_file() for path in TESTED_ELSEWHERE.values())
 
 
+@pytest.mark.long("journey")
 def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
     making, trying = re.findall(r"```sh\n(.*?)```", folders_section(), re.DOTALL)
     for parts in (
@@ -135,6 +136,7 @@ def test_a_metric_is_scored(save):
     assert row.value == pytest.approx(trajectory.placed.length * 1e3 + 3.0)
 
 
+@pytest.mark.long("journey")
 def test_a_study_is_listed_without_running_it_and_answers(save):
     from app.studies.runner import run
 
@@ -219,6 +221,7 @@ def test_a_device_profile_describes_a_robot_that_moves(save):
     assert chosen[1] is not of_another[1]
 
 
+@pytest.mark.long("journey")
 def test_a_marker_extractor_is_chosen_by_a_rig_and_finds_the_marker(save):
     from app.tracking.markers.choice import extractors
     from app.tracking.optics.rig import load_rig
@@ -248,6 +251,7 @@ def test_an_unknown_extractor_is_refused_with_the_known_ones(save):
         extractors(load_rig("wide"), "magic")
 
 
+@pytest.mark.long("journey")
 def test_a_remedy_is_offered_and_reads_a_ct(save, tmp_path):
     from app.exercises.schema import Exercise
     from app.exercises.writing import schema_document

@@ -5,6 +5,7 @@ import pytest
 from tools.long_tests import PAGE, ROOT, long_tests, written
 
 
+@pytest.mark.long("journey")
 def test_the_page_of_tests_is_what_they_are_marked_with():
     assert PAGE.read_text(encoding="utf-8") == written(long_tests()), "write it: make tests-page"
 

@@ -199,6 +199,7 @@ def test_a_bent_needle_is_one_needle_for_panel_slices_record_and_score(
     assert result.score.row("lateral_error").value == pytest.approx(1e3 * away, abs=1e-9)
 
 
+@pytest.mark.long("journey")
 def test_without_the_tissue_the_needle_is_straight_to_the_last_bit(tmp_path, application):
     run, snapshots, result = attempt("first-insertion", tmp_path, 4.0, change={"effects": {}})
     for snapshot in snapshots[::20]:
@@ -212,6 +213,7 @@ def test_without_the_tissue_the_needle_is_straight_to_the_last_bit(tmp_path, app
     assert run.placed is not None
 
 
+@pytest.mark.long("journey")
 def test_at_target_is_said_only_within_the_tolerance_across_too(tmp_path, application):
     widget, texts = Bullseye(), []
 
@@ -234,6 +236,7 @@ def test_at_target_is_said_only_within_the_tolerance_across_too(tmp_path, applic
     assert not any("at target" in text for text, _ in texts)
 
 
+@pytest.mark.long("journey")
 def test_rings_and_target_stand_where_breathing_has_the_target(tmp_path, application):
     run, snapshots, _ = attempt("breathing-liver", tmp_path, seconds=6.0)
     scene = run.scene()

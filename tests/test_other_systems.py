@@ -60,6 +60,7 @@ def demonstration(request, ct, tmp_path_factory):
     return acus(inside, request.param, "demo", "--headless", "--ct", str(ct), "--out", out), inside
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_a_ct_whose_slices_are_encoded_is_read_to_the_same_voxels(ct, tmp_path, system):
     here = acus(tmp_path / "linux", "linux", "ct", "digest", str(ct))
@@ -69,6 +70,7 @@ def test_a_ct_whose_slices_are_encoded_is_read_to_the_same_voxels(ct, tmp_path, 
     assert "sha256" in there.stdout
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_an_exercise_is_made_packed_and_taken_in(tmp_path, system):
     new = acus(tmp_path, system, "exercise", "new", "own", "--from", "first-insertion")

@@ -97,6 +97,7 @@ def test_the_list_ends_with_code_3_where_a_file_is_refused_and_with_0_where_none
     assert "mine.py, line 1" in json.dumps(json.loads(answer.stdout))
 
 
+@pytest.mark.long("journey")
 def test_the_explanation_of_an_exercise_names_them_too(folders):
     (folders / "effects" / "mine.py").write_text("DECLARATION = {'nonsense': 1}\n")
     said = CliRunner().invoke(build(), ["explain", "first-insertion"]).stdout

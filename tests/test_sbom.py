@@ -47,6 +47,7 @@ def found(tmp_path):
     return tmp_path, sbom.bill(sbom.report([*where, f"{program}[more]"]), MOMENT)
 
 
+@pytest.mark.long("journey")
 def test_it_lists_what_pip_installs_with_the_digests_of_the_files(found):
     folder, bill = found
     assert [one["name"] for one in bill["components"]] == ["first_part", "second_part"]
@@ -57,6 +58,7 @@ def test_it_lists_what_pip_installs_with_the_digests_of_the_files(found):
     assert bill["metadata"]["component"]["name"] == "acus"
 
 
+@pytest.mark.long("journey")
 def test_it_says_licences_and_what_needs_what(found):
     _, bill = found
     named = {one["name"]: one["licenses"] for one in bill["components"]}
@@ -67,6 +69,7 @@ def test_it_says_licences_and_what_needs_what(found):
     assert needs == {"pkg:pypi/acus@1.0": [first, second], first: [], second: [first]}
 
 
+@pytest.mark.long("journey")
 def test_the_same_report_gives_the_same_serial_number_and_another_another(found):
     folder, bill = found
     program = next(iter(folder.glob("acus*.whl")))
@@ -81,6 +84,7 @@ def test_a_report_without_the_program_is_refused():
         sbom.bill({"install": []}, MOMENT)
 
 
+@pytest.mark.long("journey")
 def test_it_obeys_the_schema_of_cyclonedx(found):
     if os.environ.get("CI") != "true":
         pytest.importorskip("cyclonedx", reason="cyclonedx-python-lib is not installed")
@@ -108,6 +112,7 @@ def test_it_obeys_the_schema_of_cyclonedx(found):
         assert list(check.iter_errors(bill | broken))  # it would say so
 
 
+@pytest.mark.long("journey")
 def test_everything_pinned_for_the_trainer_names_its_licence():
     """Of what is installed here: a package whose licence nobody states must be looked at."""
     from importlib.metadata import distributions

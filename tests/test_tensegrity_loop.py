@@ -29,6 +29,7 @@ def test_codes_of_faults_are_those_of_the_device():
     assert all(Fault(code).message for code in (SLACK, BROKEN, LOST))
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("tilt", [0.0, 20.0, 40.0])
 @pytest.mark.parametrize("azimuth", [10.0, 100.0, 190.0, 280.0])
 def test_a_direction_is_held_against_five_newtons_better_than_encoders_and_a_tenth(tilt, azimuth):

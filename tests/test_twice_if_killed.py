@@ -58,6 +58,7 @@ def test_it(number):
 """
 
 
+@pytest.mark.long("journey")
 def test_what_passed_before_a_death_is_not_run_again(tmp_path):
     (tmp_path / "test_deadly.py").write_text(DEADLY)
     hooks = (Path(__file__).parent / "conftest.py").read_text()
@@ -95,6 +96,7 @@ def test_b():
 """
 
 
+@pytest.mark.long("journey")
 def test_a_run_that_may_take_so_long_ends_then_and_begins_with_another_file_each_time(tmp_path):
     hooks = (Path(__file__).parent / "conftest.py").read_text()
     wanted = ("pytest_configure", "pytest_collection_modifyitems", "pytest_runtest_setup")

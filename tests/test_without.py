@@ -17,6 +17,7 @@ def test_every_pattern_of_the_table_is_of_some_file(name):
     assert [one for one in PARTS[name].files if not list(ROOT.glob(one))] == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", PARTS)
 def test_nothing_else_in_the_program_names_a_part(name):
     gone = left_out(PARTS[name])

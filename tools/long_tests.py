@@ -64,10 +64,13 @@ def long_tests(folder: Path = ROOT / "tests") -> dict[str, Counter[str]]:
 
 
 def written(marked: dict[str, Counter[str]]) -> str:
-    """Return the text of the page."""
-    lines = [HEAD + "\n".join(f"| {kind} | {text} |" for kind, text in KINDS.items())]
-    lines += ["", f"| file | {' | '.join(KINDS)} |", "|---|" + "---|" * len(KINDS)]
+    """Return the text of the page: how many functions of each folder are marked by which kind."""
+    folders: dict[str, Counter[str]] = {}
     for name, counts in marked.items():
+        folders.setdefault(Path(name).parent.as_posix(), Counter()).update(counts)
+    lines = [HEAD + "\n".join(f"| {kind} | {text} |" for kind, text in KINDS.items())]
+    lines += ["", f"| folder | {' | '.join(KINDS)} |", "|---|" + "---|" * len(KINDS)]
+    for name, counts in sorted(folders.items()):
         lines.append(f"| {name} | {' | '.join(str(counts[kind] or '') for kind in KINDS)} |")
     return "\n".join(lines) + "\n"
 

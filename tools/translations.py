@@ -106,9 +106,9 @@ def unmarked_texts(tree: ast.Module) -> list[str]:
 
 def _is_help(node: ast.AST) -> bool:
     """Return whether a part of a module makes a text of `--help`, by its name."""
-    named = isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
-    name = node.targets[0].id if named else getattr(node, "name", "")
-    return isinstance(node, ast.Assign | ast.FunctionDef) and "help" in name.lower()
+    if isinstance(node, ast.Assign):
+        return "help" in ast.unparse(node.targets[0]).lower()
+    return isinstance(node, ast.FunctionDef) and "help" in node.name.lower()
 
 
 def _titles(tree: ast.Module) -> Iterator[str]:
@@ -125,7 +125,8 @@ def _of_fields(tree: ast.Module) -> Iterator[str]:
     """Yield titles and helps of fields of models, which forms show."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Shown":
-            yield from (part.value for part in node.args if isinstance(part, ast.Constant))
+            parts = (part.value for part in node.args if isinstance(part, ast.Constant))
+            yield from (text for text in parts if isinstance(text, str))
 
 
 def _within_texts(tree: ast.Module) -> Iterator[str]:

@@ -62,7 +62,7 @@ def _register(added: ModuleType, root: typer.Typer) -> None:
     except BaseException as error:  # SystemExit too: whatever somebody's file does
         text = f"{type(error).__name__}: {error}".rstrip(": ")
         plugin_folders.refused[path] = sentence(
-            "{path}: register() does not work: {text}", path=path, text=text
+            "{path}: register() does not work: {reason}", path=path, reason=text
         )
         return
     if taken:

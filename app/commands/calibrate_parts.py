@@ -133,7 +133,7 @@ def view_line(view: "BoardView | Rejection") -> str:
     from app.tracking.calibration.views import Rejection
 
     if isinstance(view, Rejection):
-        return sentence("{name:<24} not used  {text}", name=view.name, text=view.text)
+        return sentence("{name:<24} not used  {reason}", name=view.name, reason=view.text)
     return sentence(
         "{name:<24} {corners:>3} corners  squares {square_px:.0f} px  edges {edge_px:.1f} px  "
         "window ±{window} px",
@@ -264,9 +264,9 @@ def stereo_lines(
     lines += _plain_line(estimate.usual_rms_px)
     lines += _validation_lines(outcome)
     lines += [
-        sentence("  agrees: {text}", text=check.text)
+        sentence("  agrees: {check}", check=check.text)
         if check.passed
-        else sentence("  CONTRADICTS: {text}", text=check.text)
+        else sentence("  CONTRADICTS: {check}", check=check.text)
         for check in checks
     ]
     if not checks:
@@ -279,7 +279,7 @@ def stereo_lines(
     lines += _residual_lines(outcome.result.residuals)
     lines += _refused(outcome.read) + _indented(calibration.notes)
     grade = verdict.grade.value
-    return [*lines, sentence("verdict: {grade}: {text}", grade=grade, text=verdict.text)]
+    return [*lines, sentence("verdict: {grade}: {verdict}", grade=grade, verdict=verdict.text)]
 
 
 def _indented(notes: "Sequence[str]") -> list[str]:
@@ -350,7 +350,7 @@ def _refused(looked: "Sequence[Seen]") -> list[str]:
     from app.tracking.calibration.views import Rejection
 
     return [
-        sentence("  {name:<32} not used: {text}", name=v.name, text=v.text)
+        sentence("  {name:<32} not used: {reason}", name=v.name, reason=v.text)
         for v in looked
         if isinstance(v, Rejection)
     ]

@@ -119,7 +119,7 @@ def use(
             warnings.append(
                 sentence("{side}: {lack}; saved all the same, for when it is", side=side, lack=lack)
             )
-            tell(sentence("warning: {text}", text=warnings[-1]), err=True)
+            tell(sentence("warning: {warning}", warning=warnings[-1]), err=True)
     return Answer(
         {"chosen": settings.model_dump(mode="json"), "file": file, "warnings": warnings},
         shown=(

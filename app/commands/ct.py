@@ -147,7 +147,7 @@ def digest(
     size = "×".join(map(str, found.size))
     lines = [f"{name} [mm]  {row}" for name, row in zip("xyz", rows, strict=True)]
     values = sentence(
-        "values  sha256 {values} of {size} {kind}", values=found.values, size=size, kind=found.kind
+        "values  sha256 {digest} of {size} {kind}", digest=found.values, size=size, kind=found.kind
     )
     return Answer(asdict(found), [values, *lines])
 
@@ -309,11 +309,11 @@ def _imported(imported: "Imported") -> dict[str, Any]:
 def _imported_lines(imported: "Imported") -> list[str]:
     entry = imported.entry
     head: str = sentence(
-        "{name}: {label}, {files}: {words}",
+        "{name}: {label}, {files}: {content}",
         name=entry.name,
         label=entry.label,
         files=counted("{n} file", "{n} files", entry.files),
-        words=imported.words,
+        content=imported.words,
     )
     if entry.remedy != "none":
         head += sentence("; it opens with --remedy {remedy}", remedy=entry.remedy)

@@ -272,7 +272,7 @@ def _answer(bench: Bench, results: list[AnyResult]) -> Answer:
     }
     text = clearance.reason or sentence("cleared for {force:g} N", force=clearance.force_cap)
     lines = [joined(" ", (f"{one.step.value:<10}", one.summary())) for one in results]
-    last = sentence("device     {device}: {text}", device=bench.record.device, text=text)
+    last = sentence("device     {device}: {clearance}", device=bench.record.device, clearance=text)
     return Answer(facts, [*lines, last])
 
 

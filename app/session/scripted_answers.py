@@ -100,7 +100,7 @@ class ScriptedAnswers:
     _scans: int = 0
     _next: float = 0.0
     _heard: float | None = None
-    _said: bool = False
+    _reported: bool = False
 
     @classmethod
     def of(cls, skill: str, seed: int = 0) -> ScriptedAnswers | None:
@@ -131,12 +131,12 @@ class ScriptedAnswers:
         Who answers rightly hears it at once, before any scan can show why.
         """
         if not monitor.coughs:
-            self._heard, self._said = None, False
+            self._heard, self._reported = None, False
             return False
         self._heard = now if self._heard is None else self._heard
         due = self.manner.is_right and now >= self._heard + self.manner.delay
-        said, self._said = self._said, self._said or due
-        return due and not said
+        before, self._reported = self._reported, self._reported or due
+        return due and not before
 
     def rows(self, monitor: Vitals) -> tuple[GuidelineRow, ...]:
         """Return the rows of the table of answers that hold by what was seen."""

@@ -408,18 +408,6 @@
             <translation type="unfinished">Anfang und Ziel sind dieselbe Stellung: Es gibt nichts zu bewegen</translation>
         </message>
         <message>
-            <source>with the tip at the {name} the arm touches something, or has no posture</source>
-            <translation type="unfinished">mit der Spitze bei {name} berührt der Arm etwas oder hat keine Stellung</translation>
-        </message>
-        <message>
-            <source>the tip is where it shall go: there is nothing to move</source>
-            <translation type="unfinished">die Spitze ist schon, wo sie hin soll: Es gibt nichts zu bewegen</translation>
-        </message>
-        <message>
-            <source>{attempts} ways of the tip were found, but the arm's postures along them touch something: begin with another posture or roll</source>
-            <translation type="unfinished">gefundene Wege der Spitze: {attempts}, aber auf ihnen berühren die Stellungen des Arms etwas: Beginnen Sie mit einer anderen Stellung oder Drehung</translation>
-        </message>
-        <message>
             <source>{planner} found no way in {time_perf_counter:.3g} s and {tests} tests (budget {budget_seconds:g} s, {budget_tests} tests, seed {budget_seed}): give it more, or make room</source>
             <translation type="unfinished">{planner} fand in {time_perf_counter:.3g} s und {tests} Tests keinen Weg (Budget {budget_seconds:g} s, {budget_tests} Tests, Startwert {budget_seed}): Geben Sie mehr vor oder schaffen Sie Platz</translation>
         </message>
@@ -688,8 +676,16 @@
             <translation type="unfinished">{routine_title}: {report_needs}: Geben Sie es mit --readings an</translation>
         </message>
         <message>
+            <source>&gt; {needs} {how}</source>
+            <translation type="unfinished">&gt; {needs} {how}</translation>
+        </message>
+        <message>
             <source>the input has ended before the routine; nothing was kept</source>
             <translation type="unfinished">die Eingabe endete vor der Routine; nichts wurde behalten</translation>
+        </message>
+        <message>
+            <source>{line!r} is not a number in {unit}</source>
+            <translation type="unfinished">{line!r} ist keine Zahl in {unit}</translation>
         </message>
         <message>
             <source>places        agree within {disagreement_mm:.2f} mm</source>
@@ -732,6 +728,10 @@
             <translation type="unfinished">keine Kalibrierung ist in Gebrauch: Führen Sie zuerst `acus calibrate stereo --keep` aus oder nennen Sie eine mit --calibration</translation>
         </message>
         <message>
+            <source>skipped: {name}: its name says none of the two cameras</source>
+            <translation type="unfinished">übergangen: {name}: der Name nennt keine der beiden Kameras</translation>
+        </message>
+        <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out nimmt das Objektiv einer Kamera; diese Bilder sind von {groups}: Geben Sie für jede einen Ordner an oder verwenden Sie `acus calibrate stereo`</translation>
         </message>
@@ -756,6 +756,10 @@
             <translation type="unfinished">--names {names!r} sind nicht zwei Namen, z. B. left,right</translation>
         </message>
         <message>
+            <source>kept {file}</source>
+            <translation type="unfinished">{file} aufbewahrt</translation>
+        </message>
+        <message>
             <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
             <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm zurückgehalten|nicht an zurückgehaltenen Ansichten geprüft}  {world:?Welt|keine Welt}{found_bad:?  FÜR SCHLECHT BEFUNDEN: {found_bad}}}</translation>
         </message>
@@ -764,12 +768,28 @@
             <translation type="unfinished">keine Kalibrierungen in {folder}</translation>
         </message>
         <message>
+            <source>found bad     {day}: {reason}</source>
+            <translation type="unfinished">für schlecht befunden {day}: {reason}</translation>
+        </message>
+        <message>
+            <source>  (in use)</source>
+            <translation type="unfinished">  (in Gebrauch)</translation>
+        </message>
+        <message>
+            <source>file          {path}{in_use}</source>
+            <translation type="unfinished">Datei         {path}{in_use}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind}: Nur yaml und ros lassen sich schreiben</translation>
         </message>
         <message>
             <source>{id} written to {files}</source>
             <translation type="unfinished">{id} in {files} geschrieben</translation>
+        </message>
+        <message>
+            <source>in use from now on; kept as {path}</source>
+            <translation type="unfinished">von jetzt an in Gebrauch; aufbewahrt als {path}</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
@@ -788,8 +808,44 @@
             <translation type="unfinished">bei 100 % drucken, nicht an die Seite anpassen, und die Linie von 100 mm messen</translation>
         </message>
         <message>
+            <source>id            {id}</source>
+            <translation type="unfinished">Kennung       {id}</translation>
+        </message>
+        <message>
+            <source>created       {created:%Y-%m-%d %H:%M} {zone}</source>
+            <translation type="unfinished">erstellt      {created:%Y-%m-%d %H:%M} {zone}</translation>
+        </message>
+        <message>
+            <source>board         {board}</source>
+            <translation type="unfinished">Tafel         {board}</translation>
+        </message>
+        <message>
+            <source>{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} views</source>
+            <translation type="unfinished">{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} Ansichten</translation>
+        </message>
+        <message>
+            <source>pair          {rms_px:.3f} px, baseline {baseline_mm:.2f} mm</source>
+            <translation type="unfinished">Paar          {rms_px:.3f} px, Basis {baseline_mm:.2f} mm</translation>
+        </message>
+        <message>
+            <source>held back     {views} pairs: {rms_mm:.3f} mm RMS, largest {max_mm:.3f} mm, scale {scale:.5f} ± {scale_sd:.5f}</source>
+            <translation type="unfinished">zurückgelegt  {views} Paare: {rms_mm:.3f} mm RMS, größter {max_mm:.3f} mm, Maßstab {scale:.5f} ± {scale_sd:.5f}</translation>
+        </message>
+        <message>
             <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
             <translation type="unfinished">Unsicherheit  die Unsicherheit der Kalibrierung selbst ist nicht bekannt: Jeder angegebene Radius lässt sie aus</translation>
+        </message>
+        <message>
+            <source>known</source>
+            <translation type="unfinished">bekannt</translation>
+        </message>
+        <message>
+            <source>world         {known}</source>
+            <translation type="unfinished">Welt          {known}</translation>
+        </message>
+        <message>
+            <source>note          {note}</source>
+            <translation type="unfinished">Anmerkung     {note}</translation>
         </message>
         <message>
             <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
@@ -800,24 +856,100 @@
             <translation type="unfinished">--lens {lens!r}: Es gibt {known_lenses}; equidistant ist das Fischaugenmodell</translation>
         </message>
         <message>
+            <source>the picture of rig {name}</source>
+            <translation type="unfinished">das Bild des Gestells {name}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} not used  {reason}</source>
+            <translation type="unfinished">{name:&lt;24} nicht benutzt  {reason}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} {corners:&gt;3} corners  squares {square_px:.0f} px  edges {edge_px:.1f} px  window ±{window} px</source>
+            <translation type="unfinished">{name:&lt;24} {corners:&gt;3} Ecken  Felder {square_px:.0f} px  Kanten {edge_px:.1f} px  Fenster ±{window} px</translation>
+        </message>
+        <message>
+            <source>  views held back      {rms_px:.4f} px</source>
+            <translation type="unfinished">  zurückgelegte Ansichten {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>calibration {id}, {board}</source>
+            <translation type="unfinished">Kalibrierung {id}, {board}</translation>
+        </message>
+        <message>
+            <source>  by itself {rms_px:.4f} px</source>
+            <translation type="unfinished">  für sich {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>both     {rms_px:.4f} px RMS over {pairs} pairs</source>
+            <translation type="unfinished">beide    {rms_px:.4f} px RMS über {pairs} Paare</translation>
+        </message>
+        <message>
+            <source>  T_right_left {place} mm ± {sd}; baseline {baseline_mm:.3f} mm</source>
+            <translation type="unfinished">  T_right_left {place} mm ± {sd}; Basis {baseline_mm:.3f} mm</translation>
+        </message>
+        <message>
+            <source>  agrees: {check}</source>
+            <translation type="unfinished">  stimmt überein: {check}</translation>
+        </message>
+        <message>
+            <source>  CONTRADICTS: {check}</source>
+            <translation type="unfinished">  WIDERSPRICHT: {check}</translation>
+        </message>
+        <message>
             <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
             <translation type="unfinished">  nicht geprüft: die Größe der Tafel; geben Sie --baseline-mm oder eine zweite Tafel an (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>verdict: {grade}: {verdict}</source>
+            <translation type="unfinished">Urteil: {grade}: {verdict}</translation>
+        </message>
+        <message>
+            <source>  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px</source>
+            <translation type="unfinished">  Einfaches Verfahren von OpenCV (alle Ansichten, fünf Koeffizienten): {rms_px:.4f} px</translation>
         </message>
         <message>
             <source>  not validated: no pairs were held back (--hold-back N)</source>
             <translation type="unfinished">  nicht validiert: keine Paare wurden zurückgehalten (--hold-back N)</translation>
         </message>
         <message>
+            <source>  {views} pairs held back: corners within {rms_mm:.3f} mm RMS (at most {max_mm:.3f} mm) of the true board, lengths x {scale:.5f} ± {scale_sd:.5f}, epipolar {epipolar_px:.3f} px</source>
+            <translation type="unfinished">  {views} Paare zurückgelegt: Ecken auf {rms_mm:.3f} mm RMS (höchstens {max_mm:.3f} mm) an der wahren Tafel, Längen × {scale:.5f} ± {scale_sd:.5f}, epipolar {epipolar_px:.3f} px</translation>
+        </message>
+        <message>
+            <source>{name:&lt;8} {rms_px:.4f} px RMS over {views} views of {width}x{height}</source>
+            <translation type="unfinished">{name:&lt;8} {rms_px:.4f} px RMS über {views} Ansichten von {width}x{height}</translation>
+        </message>
+        <message>
+            <source>  {name}  {zero:&gt;12} (not supported by the views)</source>
+            <translation type="unfinished">  {name}  {zero:&gt;12} (von den Ansichten nicht gestützt)</translation>
+        </message>
+        <message>
             <source>left out</source>
             <translation type="unfinished">ausgelassen</translation>
+        </message>
+        <message>
+            <source>  {name:&lt;32} not used: {reason}</source>
+            <translation type="unfinished">  {name:&lt;32} nicht benutzt: {reason}</translation>
         </message>
         <message>
             <source>no camera is plugged in</source>
             <translation type="unfinished">keine Kamera ist angesteckt</translation>
         </message>
         <message>
+            <source>{side}: {lack}; saved all the same, for when it is</source>
+            <translation type="unfinished">{side}: {lack}; trotzdem gespeichert, für später</translation>
+        </message>
+        <message>
+            <source>warning: {warning}</source>
+            <translation type="unfinished">Warnung: {warning}</translation>
+        </message>
+        <message>
             <source>saved in {file}</source>
             <translation type="unfinished">in {file} gespeichert</translation>
+        </message>
+        <message>
+            <source>skew (right after left): {skew:.1f} ms</source>
+            <translation type="unfinished">Versatz (rechts nach links): {skew:.1f} ms</translation>
         </message>
         <message>
             <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
@@ -856,8 +988,24 @@
             <translation type="unfinished">die der Lieferung, abzüglich der Latenz</translation>
         </message>
         <message>
+            <source>{name}: {width}x{height}, {rate:.1f} pictures/s, jitter {jitter_ms:.1f} ms, {repeated:.1f} % repeated</source>
+            <translation type="unfinished">{name}: {width}x{height}, {rate:.1f} Bilder/s, Schwankung {jitter_ms:.1f} ms, {repeated:.1f} % wiederholt</translation>
+        </message>
+        <message>
+            <source>  brightness {brightness:.0f} of 255, {saturated:.1f} % overexposed, noise {noise:.1f} grey values</source>
+            <translation type="unfinished">  Helligkeit {brightness:.0f} von 255, {saturated:.1f} % überbelichtet, Rauschen {noise:.1f} Grauwerte</translation>
+        </message>
+        <message>
+            <source>  capture times: {times}; {age_ms:.0f} ms to delivery</source>
+            <translation type="unfinished">  Aufnahmezeiten: {times}; {age_ms:.0f} ms bis zur Ablieferung</translation>
+        </message>
+        <message>
             <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
             <translation type="unfinished">Farbe des Markers: das übliche Rot (im Bereich Tracker nimmt Lernen eine andere auf)</translation>
+        </message>
+        <message>
+            <source>marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within {angle:.0f}° (`acus camera use --forget-colour` goes back to the usual red)</source>
+            <translation type="unfinished">Farbe der Marke: gelernt, rot {red:.0f} grün {green:.0f} blau {blue:.0f}, auf {angle:.0f}° (`acus camera use --forget-colour` kehrt zum üblichen Rot zurück)</translation>
         </message>
         <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
@@ -880,12 +1028,28 @@
             <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} HU|keine HU: Auffüllung, dort wurde nichts gemessen}</translation>
         </message>
         <message>
+            <source>values  sha256 {digest} of {size} {kind}</source>
+            <translation type="unfinished">Werte  sha256 {digest} von {size} {kind}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r}: drei Zahlen X,Y,Z in mm</translation>
         </message>
         <message>
+            <source>opens with --remedy {remedy}</source>
+            <translation type="unfinished">geht auf mit --remedy {remedy}</translation>
+        </message>
+        <message>
             <source>the library is empty; `acus ct import DIR` takes a CT in</source>
             <translation type="unfinished">die Bibliothek ist leer; `acus ct import DIR` nimmt ein CT auf</translation>
+        </message>
+        <message>
+            <source>{name}: {label}, {files}: {content}</source>
+            <translation type="unfinished">{name}: {label}, {files}: {content}</translation>
+        </message>
+        <message>
+            <source>; it opens with --remedy {remedy}</source>
+            <translation type="unfinished">; es geht auf mit --remedy {remedy}</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -904,12 +1068,52 @@
             <translation type="unfinished">{option} {argument!r} ist nicht {form}: {count} ganze Zahlen, keine Leerzeichen</translation>
         </message>
         <message>
+            <source>usable </source>
+            <translation type="unfinished">nutzbar </translation>
+        </message>
+        <message>
+            <source>refused</source>
+            <translation type="unfinished">abgelehnt</translation>
+        </message>
+        <message>
+            <source>spacing {spacing} mm</source>
+            <translation type="unfinished">Abstand {spacing} mm</translation>
+        </message>
+        <message>
+            <source>origin {origin} mm</source>
+            <translation type="unfinished">Ursprung {origin} mm</translation>
+        </message>
+        <message>
+            <source>direction {direction}</source>
+            <translation type="unfinished">Richtung {direction}</translation>
+        </message>
+        <message>
+            <source>on request: {remedies}</source>
+            <translation type="unfinished">auf Wunsch: {remedies}</translation>
+        </message>
+        <message>
             <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
             <translation type="unfinished">keine seriellen Anschlüsse; stecken Sie den Roboter an oder versuchen Sie `acus device emulate`</translation>
         </message>
         <message>
+            <source>(the board does not say)</source>
+            <translation type="unfinished">(die Platine sagt es nicht)</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">der Roboter hat geantwortet, sendet aber keine Gelenkwinkel; siehe `acus device test`</translation>
+        </message>
+        <message>
+            <source>cleared for {force:g} N</source>
+            <translation type="unfinished">freigegeben bis {force:g} N</translation>
+        </message>
+        <message>
+            <source>device     {device}: {clearance}</source>
+            <translation type="unfinished">Gerät      {device}: {clearance}</translation>
+        </message>
+        <message>
+            <source>not understood: {error}</source>
+            <translation type="unfinished">nicht verstanden: {error}</translation>
         </message>
         <message>
             <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
@@ -974,6 +1178,10 @@
         <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} berührt, {picked} gewählt  {rig}  {trusted:?gut|passt nicht}</translation>
+        </message>
+        <message>
+            <source>no registration checks in {folder}</source>
+            <translation type="unfinished">keine Prüfungen der Registrierung in {folder}</translation>
         </message>
         <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
@@ -1324,12 +1532,20 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">Tabellen und Bilder liegen in {folder}</translation>
         </message>
         <message>
+            <source>cannot be used: {error}</source>
+            <translation type="unfinished">nicht nutzbar: {error}</translation>
+        </message>
+        <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r}: Verwenden Sie {valid}</translation>
         </message>
         <message>
             <source>{files}: from world (robot) to patient (LPS)</source>
             <translation type="unfinished">{files}: von der Welt (Roboter) zum Patienten (LPS)</translation>
+        </message>
+        <message>
+            <source>turns by {angle:.3f}°, millimetres, LPS as in the file</source>
+            <translation type="unfinished">dreht um {angle:.3f}°, Millimeter, LPS wie in der Datei</translation>
         </message>
         <message>
             <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
@@ -1340,8 +1556,20 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">--origin {origin!r}; gültige Namen: {names}</translation>
         </message>
         <message>
+            <source>{file}: {profile}, world at the {place}</source>
+            <translation type="unfinished">{file}: {profile}, Welt am Ort {place}</translation>
+        </message>
+        <message>
+            <source>{file}: {profile}, world at the {place}, {count} meshes beside it</source>
+            <translation type="unfinished">{file}: {profile}, Welt am Ort {place}, {count} Netze daneben</translation>
+        </message>
+        <message>
             <source>--out {out}: a device profile is a .yaml file</source>
             <translation type="unfinished">--out {out}: Ein Geräteprofil ist eine .yaml-Datei</translation>
+        </message>
+        <message>
+            <source># Lengths from {file}, all else from the profile {like}. SI units.</source>
+            <translation type="unfinished"># Längen aus {file}, alles andere aus dem Profil {like}. SI-Einheiten.</translation>
         </message>
         <message>
             <source>exercise {name} has no CT in Hounsfield values: nothing tells what its needle meets</source>
@@ -1408,12 +1636,12 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">die Schleife wird übersetzt: {waited:.0f} s</translation>
         </message>
         <message>
-            <source>starting robot and cameras</source>
-            <translation type="unfinished">Roboter und Kameras werden gestartet</translation>
+            <source>waiting for the first picture</source>
+            <translation type="unfinished">warten auf das erste Bild</translation>
         </message>
         <message>
-            <source>starting robot and cameras: {waited:.0f} s</source>
-            <translation type="unfinished">Roboter und Kameras starten: {waited:.0f} s</translation>
+            <source>waiting for the first picture: {waited:.0f} s</source>
+            <translation type="unfinished">warten auf das erste Bild: {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -2260,10 +2488,6 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">die Platine meldet den Fehler {code}, den dieses Programm nicht kennt; siehe ihre Firmware</translation>
         </message>
         <message>
-            <source>the link has not been opened yet; call open() first</source>
-            <translation type="unfinished">die Verbindung wurde noch nicht geöffnet; rufen Sie zuerst open() auf</translation>
-        </message>
-        <message>
             <source>the pen's joint angles {angles} are not finite</source>
             <translation type="unfinished">die Gelenkwinkel {angles} des Stifts sind nicht endlich</translation>
         </message>
@@ -2790,6 +3014,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>file names a file of structures</source>
             <translation type="unfinished">file nennt eine Datei mit Strukturen</translation>
+        </message>
+        <message>
+            <source>plan: trial_entry_mm goes with target_mm: give both, or neither</source>
+            <translation type="unfinished">plan: trial_entry_mm gehört zu target_mm: Geben Sie beide an oder keines</translation>
         </message>
         <message>
             <source>rotation_deg must be within ±360°</source>
@@ -7100,10 +7328,6 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">das Feld der Szene ist ein {type_name}; binden Sie es zuerst</translation>
         </message>
         <message>
-            <source>there is no hand {name!r}; there are {hands}</source>
-            <translation type="unfinished">es gibt keine Hand {name!r}; vorhanden sind {hands}</translation>
-        </message>
-        <message>
             <source>the target lies at depth {depth} m; it must be above 0</source>
             <translation type="unfinished">das Ziel liegt in der Tiefe {depth} m; sie muss größer als 0 sein</translation>
         </message>
@@ -7394,10 +7618,6 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         <message>
             <source>MuJoCo's model of {profile_name} still moves at {speed:.2g} rad/s after 0.4 s; the torques {torques} N·m may be too large</source>
             <translation type="unfinished">das MuJoCo-Modell von {profile_name} bewegt sich nach 0,4 s noch mit {speed:.2g} rad/s; die Drehmomente {torques} N·m sind vielleicht zu groß</translation>
-        </message>
-        <message>
-            <source>tilt is {tilt} rad; a cone needs more than 0 and less than π/2</source>
-            <translation type="unfinished">die Neigung ist {tilt} rad; ein Kegel braucht mehr als 0 und weniger als π/2</translation>
         </message>
         <message>
             <source>no tool point within {tilt_deg:g}° of tilt is reached in mode {mode}, assembly {assembly}</source>
@@ -12834,8 +13054,8 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Diese Übung vormachen</translation>
         </message>
         <message>
-            <source>difficulty {n} of {most}</source>
-            <translation type="unfinished">Schwierigkeit {n} von {most}</translation>
+            <source>level {n} of {most}</source>
+            <translation type="unfinished">Stufe {n} von {most}</translation>
         </message>
         <message>
             <source>Assessment</source>
@@ -13043,6 +13263,10 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>You choose the entry here, so there is nothing to show before you have.</source>
             <translation type="unfinished">Sie wählen hier den Einstichpunkt selbst; vorher gibt es nichts zu zeigen.</translation>
+        </message>
+        <message>
+            <source>Steps that it teaches</source>
+            <translation type="unfinished">Schritte, die sie lehrt</translation>
         </message>
         <message>
             <source>What is scored</source>
@@ -14469,6 +14693,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Einen Moment: Dieser Computer ist ausgelastet, seine Bilder kommen zu spät. Schließen Sie andere Programme.</translation>
         </message>
         <message>
+            <source>Draw the needle out, then take the next one (J); or give more (Alt+J)</source>
+            <translation type="unfinished">Nadel herausziehen, dann die nächste nehmen (J); oder mehr geben (Alt+J)</translation>
+        </message>
+        <message>
             <source>Paused: the needle swings in the simulated hand; it goes on by itself.</source>
             <translation type="unfinished">Pause: Die Nadel schwingt in der simulierten Hand; es geht von selbst weiter.</translation>
         </message>
@@ -14521,6 +14749,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ziel {n} von {of}: {way}</translation>
         </message>
         <message>
+            <source>The patient is turned: Enter ends the attempt</source>
+            <translation type="unfinished">Der Patient ist gedreht: Enter beendet den Versuch</translation>
+        </message>
+        <message>
+            <source>Needle out: turn the patient (J)</source>
+            <translation type="unfinished">Nadel heraus: Patienten drehen (J)</translation>
+        </message>
+        <message>
             <source>Push to its place, then leave electrode {n} (J)</source>
             <translation type="unfinished">An ihren Platz schieben, dann Elektrode {n} dort lassen (J)</translation>
         </message>
@@ -14529,12 +14765,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Nadel aus der Haut ziehen, zu {n} drehen</translation>
         </message>
         <message>
-            <source>Draw the needle out, then take the next one (J)</source>
-            <translation type="unfinished">Ziehen Sie die Nadel heraus und nehmen Sie die nächste (J)</translation>
-        </message>
-        <message>
             <source>Draw the needle out, or give more (J)</source>
             <translation>Ziehen Sie die Nadel heraus, oder geben Sie mehr (J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw out and turn the patient (Alt+J)</source>
+            <translation type="unfinished">Mandrin heraus (J) für eine weitere; oder herausziehen und Patienten drehen (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw the needle out</source>
+            <translation type="unfinished">Mandrin heraus (J) für eine weitere; oder die Nadel herausziehen</translation>
+        </message>
+        <message>
+            <source>Turn the patient puncture side down (J)</source>
+            <translation type="unfinished">Patienten auf die Einstichseite drehen (J)</translation>
         </message>
         <message>
             <source>Another sample: stylet out (J). Enter ends the attempt</source>
@@ -14999,6 +15243,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Retrieve by</source>
             <translation type="unfinished">Abrufen mit</translation>
+        </message>
+        <message>
+            <source>Ablate the lesion in the liver with 5 mm of liver about it. Ask for consent and check coagulation (J, J). Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J), and have the patient turned puncture side down (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
+            <translation type="unfinished">Abladieren Sie die Läsion in der Leber mit 5 mm Leber ringsum. Holen Sie die Einwilligung ein und prüfen Sie die Gerinnung (J, J). Bringen Sie die Nadel an die erste Stelle und lassen Sie die Elektrode dort (J), ziehen Sie die Nadel wieder aus der Haut, drehen Sie sie auf den nächsten Pfad, und so fort für alle drei. Dann starten Sie den Generator (J) und lassen den Patienten auf die Einstichseite drehen (J). Die Zonen folgen daraus, wo die Elektroden wirklich liegen: Geplant sind 40 W für 20 min.</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, ask for consent and check coagulation (J, J), local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). At the end draw the needle out and have the patient turned puncture side down (Alt+J), and scan once more.</source>
+            <translation type="unfinished">Nehmen Sie zwei Proben des Rundherds in der rechten Lunge nach Kontrollscans: Markieren Sie den Einstich nach dem Raster, holen Sie die Einwilligung ein und prüfen Sie die Gerinnung (J, J), Lokalanästhesie bis an die Pleura (J), die Außennadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Biopsiegerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein. Scannen Sie wieder (S), und beobachten Sie Monitor und Patient: Die Lunge kann zurückfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J). Am Ende ziehen Sie die Nadel heraus, lassen den Patienten auf die Einstichseite drehen (Alt+J) und scannen noch einmal.</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung. Choose the path first: place the entry (E, or the map of entries in the panel Plan) so that it meets no rib, little lung and no fissure. Then ask for consent and check coagulation (J, J), give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open. At the end draw the needle out and have the patient turned puncture side down at once (J).</source>
+            <translation type="unfinished">Nehmen Sie zwei Proben des Rundherds in der rechten Lunge. Wählen Sie zuerst den Pfad: Setzen Sie den Einstich (E, oder die Karte der Einstiche in der Tafel Plan) so, dass er keine Rippe, wenig Lunge und keinen Lappenspalt trifft. Dann holen Sie die Einwilligung ein und prüfen die Gerinnung (J, J), geben Lokalanästhesie kurz vor der Pleura (J), ziehen diese Nadel heraus und nehmen die Außennadel (J). Halten Sie vor der Pleura inne, queren Sie sie in einem Zug, während der Rundherd ruht, und halten Sie mit der Spitze am nahen Rand des Rundherds. Dann Mandrin heraus, Biopsiegerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein; drehen Sie die Kerbe und nehmen Sie eine weitere. Halten Sie den Ansatz geschlossen: Durch den offenen dringt Luft ein. Am Ende ziehen Sie die Nadel heraus und lassen den Patienten sofort auf die Einstichseite drehen (J).</translation>
         </message>
         <message>
             <source>Web address</source>
@@ -17976,6 +18232,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">rückgängig, wiederholen</translation>
         </message>
         <message>
+            <source>another step in its place</source>
+            <translation type="unfinished">ein anderer Schritt an seiner Stelle</translation>
+        </message>
+        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">Plan speichern, speichern als</translation>
         </message>
@@ -19208,10 +19468,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ein simulierter Arm führt den Plan aus</translation>
         </message>
         <message>
-            <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
-            <translation>Abladieren Sie die Läsion in der Leber mit 5 mm Leber darum. Bringen Sie die Nadel an den ersten Platz und lassen Sie die Elektrode dort (J), ziehen Sie die Nadel aus der Haut zurück, drehen Sie sie zum nächsten Pfad, und so weiter für alle drei. Dann den Generator starten (J). Die Zonen folgen daraus, wo die Elektroden wirklich liegen: geplant sind 40 W für 20 min.</translation>
-        </message>
-        <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
             <translation type="unfinished">Gegenspieler: Versuche, die belohnt werden und es nicht dürften</translation>
         </message>
@@ -19306,6 +19562,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Certificates</source>
             <translation type="unfinished">Zertifikate</translation>
+        </message>
+        <message>
+            <source>Checklist before the needle</source>
+            <translation type="unfinished">Checkliste vor der Nadel</translation>
         </message>
         <message>
             <source>Compensation of gravity and joint friction</source>
@@ -19608,6 +19868,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Wegverhältnis</translation>
         </message>
         <message>
+            <source>Patient turned after</source>
+            <translation type="unfinished">Patient gedreht nach</translation>
+        </message>
+        <message>
             <source>Pause before the membrane</source>
             <translation>Pause vor der Membran</translation>
         </message>
@@ -19714,14 +19978,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
             <translation>Vom ersten Einstich bis zur ganzen Biopsie eines Lungenherds: Hand und Gewebe, das Wählen eines Wegs, ein doppelt schräger Weg zwischen zwei Rippen, die ganze Biopsie, eine, bei der etwas geschehen kann, und eine Prüfung allein mit Kontrollscans.</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J).</source>
-            <translation>Nehmen Sie unter Kontrollscans zwei Proben des Rundherds in der rechten Lunge: den Einstich nach dem Gitter markieren, Lokalanästhesie bis an die Pleura (J), die Außennadel (J), eine Pause, und einmal durch die Pleura. Mandrin heraus, Gerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein. Scannen Sie wieder (S), und achten Sie auf Monitor und Patient: die Lunge kann zusammenfallen oder bluten. Sagen Sie es, sobald Sie es sehen (Shift+J), wählen Sie, was zu tun ist, und tun Sie es (Ctrl+Shift+J).</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
-            <translation>Nehmen Sie zwei Proben des Rundherds in der rechten Lunge. Geben Sie zuerst Lokalanästhetikum bis kurz vor die Pleura (J), ziehen Sie diese Nadel heraus und nehmen Sie die Außennadel (J). Halten Sie vor der Pleura an, durchqueren Sie sie in einem Zug, während der Herd ruht, und halten Sie mit der Spitze an seinem nahen Rand. Dann Mandrin heraus, Gerät hinein (J), auslösen (Ctrl+J), Gerät heraus, Mandrin hinein; drehen Sie die Kerbe und nehmen Sie eine weitere. Halten Sie den Ansatz geschlossen: wo er offen ist, kommt Luft hinein.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -20085,6 +20341,13 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">
                 <numerusform>{n} Kontur, die doppelt in der Datei steht, einmal gezählt</numerusform>
                 <numerusform>{n} Konturen, die doppelt in der Datei stehen, einmal gezählt</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files</source>
+            <translation type="unfinished">
+                <numerusform>{n} Datei</numerusform>
+                <numerusform>{n} Dateien</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20598,6 +20861,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>
+  teaches: {steps}</source>
+            <translation type="unfinished">
+  lehrt: {steps}</translation>
+        </message>
+        <message>
+            <source>
   complications, by lot at published odds: pneumothorax {air:.0f} % of a needle along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %</source>
             <translation>
   Komplikationen, durch das Los nach veröffentlichten Odds: Pneumothorax {air:.0f} % bei einer Nadel entlang des Plans, {drain:.0f} % davon mit Drainage; Blut in der Lunge {blood:.0f} %</translation>
@@ -20749,6 +21018,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">legen Sie den Stift nun in eine Rille und rollen Sie ihn um sich selbst, eine Vierteldrehung oder mehr …</translation>
         </message>
         <message>
+            <source>kept in {path}</source>
+            <translation type="unfinished">aufbewahrt in {path}</translation>
+        </message>
+        <message>
             <source>no files of your own yet; save them in these folders (make what is missing):</source>
             <translation type="unfinished">noch keine eigenen Dateien; speichern Sie sie in diesen Ordnern (legen Sie an, was fehlt):</translation>
         </message>
@@ -20827,6 +21100,26 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>never warns</source>
             <translation type="unfinished">warnt nie</translation>
+        </message>
+        <message>
+            <source>warns within {warn_mm:g} mm</source>
+            <translation type="unfinished">warnt ab {warn_mm:g} mm</translation>
+        </message>
+        <message>
+            <source>{name}  {kind}  {millilitres:.2f} ml  centre LPS {place} mm  {warn}</source>
+            <translation type="unfinished">{name}  {kind}  {millilitres:.2f} ml  Mitte LPS {place} mm  {warn}</translation>
+        </message>
+        <message>
+            <source>at depth {depth_mm:.1f} mm</source>
+            <translation type="unfinished">in {depth_mm:.1f} mm Tiefe</translation>
+        </message>
+        <message>
+            <source>, {inside_mm:.1f} mm inside</source>
+            <translation type="unfinished">, {inside_mm:.1f} mm darin</translation>
+        </message>
+        <message>
+            <source>note  {note}</source>
+            <translation type="unfinished">Anmerkung  {note}</translation>
         </message>
         <message>
             <source>the record was written while it was read</source>
@@ -20959,6 +21252,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Forschungsgeräte</translation>
+        </message>
+        <message>
+            <source>Research</source>
+            <translation type="unfinished">Forschung</translation>
         </message>
         <message>
             <source>{text!r} is no date: write {day}, or two days with a dash</source>
@@ -23405,6 +23702,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>lines: {lines}: eine ungerade Zahl hat eine Linie in der Mitte</translation>
         </message>
         <message>
+            <source>inr {inr:g}: above {most:g} coagulation is corrected before a needle goes in; give a patient with {most:g} or less</source>
+            <translation type="unfinished">inr {inr:g}: über {most:g} wird die Gerinnung korrigiert, bevor eine Nadel eindringt; geben Sie einen Patienten mit {most:g} oder weniger an</translation>
+        </message>
+        <message>
+            <source>platelets {platelets:g} · 10⁹/l: below {least:g} they are given before a needle goes in; give a patient with {least:g} or more</source>
+            <translation type="unfinished">platelets {platelets:g} · 10⁹/l: unter {least:g} werden Thrombozyten gegeben, bevor eine Nadel eindringt; geben Sie einen Patienten mit {least:g} oder mehr an</translation>
+        </message>
+        <message>
+            <source>procedure: rollover is after samples or an ablation: add biopsy or ablation, or leave it out</source>
+            <translation type="unfinished">procedure: rollover folgt auf Proben oder eine Ablation: Ergänzen Sie biopsy oder ablation, oder lassen Sie es weg</translation>
+        </message>
+        <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
             <translation>procedure: Proben und Ablation sind zwei Übungen: eines weglassen</translation>
         </message>
@@ -23529,6 +23838,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>der Generator hat abladiert</translation>
         </message>
         <message>
+            <source>the patient knows the risks and agrees</source>
+            <translation type="unfinished">der Patient kennt die Risiken und willigt ein</translation>
+        </message>
+        <message>
+            <source>coagulation checked</source>
+            <translation type="unfinished">Gerinnung geprüft</translation>
+        </message>
+        <message>
+            <source>the patient is turned, puncture side down</source>
+            <translation type="unfinished">der Patient ist auf die Einstichseite gedreht</translation>
+        </message>
+        <message>
             <source>needle for local anaesthetic</source>
             <translation>Nadel für das Lokalanästhetikum</translation>
         </message>
@@ -23557,6 +23878,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>diese Übung abladiert nichts</translation>
         </message>
         <message>
+            <source>the patient was turned: nothing more is done with the needle</source>
+            <translation type="unfinished">der Patient wurde gedreht: Mit der Nadel wird nichts mehr getan</translation>
+        </message>
+        <message>
             <source>this exercise takes no samples</source>
             <translation>in dieser Übung werden keine Proben genommen</translation>
         </message>
@@ -23573,12 +23898,40 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>{count} Proben wurden genommen: mehr erlaubt die Übung nicht</translation>
         </message>
         <message>
+            <source>this exercise has no checklist</source>
+            <translation type="unfinished">diese Übung hat keine Checkliste</translation>
+        </message>
+        <message>
+            <source>that was checked already</source>
+            <translation type="unfinished">das wurde schon geprüft</translation>
+        </message>
+        <message>
+            <source>in this exercise the patient is not turned</source>
+            <translation type="unfinished">in dieser Übung wird der Patient nicht gedreht</translation>
+        </message>
+        <message>
+            <source>no sample was taken: the patient is turned after the last one</source>
+            <translation type="unfinished">es wurde keine Probe genommen: Der Patient wird nach der letzten gedreht</translation>
+        </message>
+        <message>
+            <source>nothing was ablated: the patient is turned after that</source>
+            <translation type="unfinished">es wurde nichts abladiert: Der Patient wird danach gedreht</translation>
+        </message>
+        <message>
+            <source>coagulation checked: INR {inr:g} (at most {most:g}), platelets {platelets:g} · 10⁹/l (at least {least:g})</source>
+            <translation type="unfinished">Gerinnung geprüft: INR {inr:g} (höchstens {most:g}), Thrombozyten {platelets:g} · 10⁹/l (mindestens {least:g})</translation>
+        </message>
+        <message>
             <source>not done: the needle's depth is not measured now; let both cameras see the marker and do it again</source>
             <translation>nicht ausgeführt: die Tiefe der Nadel wird jetzt nicht gemessen; lassen Sie beide Kameras den Marker sehen und wiederholen Sie es</translation>
         </message>
         <message>
             <source>the needle for local anaesthetic is still in the body: draw it out first</source>
             <translation type="unfinished">die Nadel für das Lokalanästhetikum ist noch im Körper: ziehen Sie sie zuerst heraus</translation>
+        </message>
+        <message>
+            <source>the needle is still in the body: draw it out, then turn the patient</source>
+            <translation type="unfinished">die Nadel ist noch im Körper: Ziehen Sie sie heraus, dann drehen Sie den Patienten</translation>
         </message>
         <message>
             <source>the tip is outside the skin: insert it first</source>
@@ -23625,8 +23978,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation>Die Nadel für das Lokalanästhetikum: {met}, bei {clock}.</translation>
         </message>
         <message>
+            <source>Consent or coagulation was not checked before the needle went in.</source>
+            <translation type="unfinished">Einwilligung oder Gerinnung wurde nicht geprüft, bevor die Nadel eindrang.</translation>
+        </message>
+        <message>
             <source>The hub was open to air for {seconds:.1f} s with the tip in the body.</source>
             <translation>Der Ansatz war {seconds:.1f} s offen zur Luft, mit der Spitze im Körper.</translation>
+        </message>
+        <message>
+            <source>Nobody turned the patient after the needle was out.</source>
+            <translation type="unfinished">Niemand drehte den Patienten, nachdem die Nadel heraus war.</translation>
+        </message>
+        <message>
+            <source>The patient was turned {seconds:.0f} s after the needle was out.</source>
+            <translation type="unfinished">Der Patient wurde {seconds:.0f} s, nachdem die Nadel heraus war, gedreht.</translation>
         </message>
         <message>
             <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion; the core passed {aside:.1f} mm beside its middle.</source>
@@ -23731,6 +24096,30 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>What follows in the usual order</source>
             <translation>Was in der üblichen Reihenfolge kommt</translation>
+        </message>
+        <message>
+            <source>What may be done in its place</source>
+            <translation type="unfinished">Was stattdessen getan werden kann</translation>
+        </message>
+        <message>
+            <source>Give more (Alt+J)</source>
+            <translation type="unfinished">Mehr geben (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Turn the patient (Alt+J)</source>
+            <translation type="unfinished">Patienten drehen (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Ask for consent (J)</source>
+            <translation type="unfinished">Einwilligung einholen (J)</translation>
+        </message>
+        <message>
+            <source>Check coagulation (J)</source>
+            <translation type="unfinished">Gerinnung prüfen (J)</translation>
+        </message>
+        <message>
+            <source>Turn the patient (J)</source>
+            <translation type="unfinished">Patienten drehen (J)</translation>
         </message>
         <message>
             <source>How far the gun's needle runs ahead of the outer needle's tip</source>
@@ -24087,6 +24476,62 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one</source>
             <translation type="unfinished">{path} ist keine Tabelle einer Reihe (ohne {columns}): `acus cohort sweep` schreibt eine</translation>
+        </message>
+        <message>
+            <source>{path}: register() does not work: {reason}</source>
+            <translation type="unfinished">{path}: register() geht nicht: {reason}</translation>
+        </message>
+        <message>
+            <source>checklist: consent and coagulation</source>
+            <translation type="unfinished">Checkliste: Einwilligung und Gerinnung</translation>
+        </message>
+        <message>
+            <source>choosing the path</source>
+            <translation type="unfinished">den Pfad wählen</translation>
+        </message>
+        <message>
+            <source>the path report of a lung biopsy</source>
+            <translation type="unfinished">der Pfadbericht einer Lungenbiopsie</translation>
+        </message>
+        <message>
+            <source>the entry by a marker grid</source>
+            <translation type="unfinished">der Einstich nach einem Markierungsraster</translation>
+        </message>
+        <message>
+            <source>the way in by control scans</source>
+            <translation type="unfinished">das Vorgehen nach Kontrollscans</translation>
+        </message>
+        <message>
+            <source>local anaesthetic down to the membrane</source>
+            <translation type="unfinished">Lokalanästhesie bis an die Membran</translation>
+        </message>
+        <message>
+            <source>the pause before the membrane</source>
+            <translation type="unfinished">die Pause vor der Membran</translation>
+        </message>
+        <message>
+            <source>samples through a coaxial needle</source>
+            <translation type="unfinished">Proben durch eine Koaxialnadel</translation>
+        </message>
+        <message>
+            <source>noticing and answering complications</source>
+            <translation type="unfinished">Komplikationen bemerken und behandeln</translation>
+        </message>
+        <message>
+            <source>several electrodes and the generator</source>
+            <translation type="unfinished">mehrere Elektroden und der Generator</translation>
+        </message>
+        <message>
+            <source>turning the patient puncture side down</source>
+            <translation type="unfinished">den Patienten auf die Einstichseite drehen</translation>
+        </message>
+        <message>
+            <source>no step of an intervention: the way of the needle, or tool, alone</source>
+            <translation type="unfinished">kein Schritt eines Eingriffs: allein der Weg der Nadel oder des Werkzeugs</translation>
+        </message>
+        <message>
+            <source>the exercise does not have the patient turned</source>
+            <translation type="unfinished">in der Übung wird der Patient nicht gedreht</translation>
         </message>
     </context>
 </TS>

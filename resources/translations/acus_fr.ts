@@ -408,18 +408,6 @@
             <translation type="unfinished">départ et arrivée sont la même posture : il n’y a rien à déplacer</translation>
         </message>
         <message>
-            <source>with the tip at the {name} the arm touches something, or has no posture</source>
-            <translation type="unfinished">avec la pointe à {name}, le bras touche quelque chose, ou n’a pas de posture</translation>
-        </message>
-        <message>
-            <source>the tip is where it shall go: there is nothing to move</source>
-            <translation type="unfinished">la pointe est déjà là où elle doit aller : il n’y a rien à déplacer</translation>
-        </message>
-        <message>
-            <source>{attempts} ways of the tip were found, but the arm's postures along them touch something: begin with another posture or roll</source>
-            <translation type="unfinished">chemins trouvés pour la pointe : {attempts}, mais les postures du bras y touchent quelque chose : commencez par une autre posture ou un autre roulis</translation>
-        </message>
-        <message>
             <source>{planner} found no way in {time_perf_counter:.3g} s and {tests} tests (budget {budget_seconds:g} s, {budget_tests} tests, seed {budget_seed}): give it more, or make room</source>
             <translation type="unfinished">{planner} n’a trouvé aucun chemin en {time_perf_counter:.3g} s et {tests} tests (budget {budget_seconds:g} s, {budget_tests} tests, graine {budget_seed}) : donnez-lui plus, ou faites de la place</translation>
         </message>
@@ -688,8 +676,16 @@
             <translation type="unfinished">{routine_title} : {report_needs} : donnez-le avec --readings</translation>
         </message>
         <message>
+            <source>&gt; {needs} {how}</source>
+            <translation type="unfinished">&gt; {needs} {how}</translation>
+        </message>
+        <message>
             <source>the input has ended before the routine; nothing was kept</source>
             <translation type="unfinished">l’entrée s’est terminée avant la routine ; rien n’a été gardé</translation>
+        </message>
+        <message>
+            <source>{line!r} is not a number in {unit}</source>
+            <translation type="unfinished">{line!r} n’est pas un nombre en {unit}</translation>
         </message>
         <message>
             <source>places        agree within {disagreement_mm:.2f} mm</source>
@@ -732,6 +728,10 @@
             <translation type="unfinished">aucun étalonnage n’est utilisé : exécutez d’abord `acus calibrate stereo --keep`, ou indiquez-en un avec --calibration</translation>
         </message>
         <message>
+            <source>skipped: {name}: its name says none of the two cameras</source>
+            <translation type="unfinished">ignoré : {name} : son nom ne désigne aucune des deux caméras</translation>
+        </message>
+        <message>
             <source>--out takes the lens of one camera; these pictures are of {groups}: give a folder for each, or use `acus calibrate stereo`</source>
             <translation type="unfinished">--out prend l’objectif d’une seule caméra ; ces images sont de {groups} : donnez un dossier pour chacune, ou utilisez `acus calibrate stereo`</translation>
         </message>
@@ -756,6 +756,10 @@
             <translation type="unfinished">--names {names!r} n’est pas deux noms, p. ex. left,right</translation>
         </message>
         <message>
+            <source>kept {file}</source>
+            <translation type="unfinished">{file} conservé</translation>
+        </message>
+        <message>
             <source>{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}</source>
             <translation type="unfinished">{in_use:?*| } {id:28} {problem:?{problem}|{cameras.0.image_size.0}x{cameras.0.image_size.1}, {cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  {validation_rms_mm:?{validation_rms_mm:.3f} mm mis de côté|non vérifié sur des vues mises de côté}  {world:?monde|sans monde}{found_bad:?  JUGÉ MAUVAIS : {found_bad}}}</translation>
         </message>
@@ -764,12 +768,28 @@
             <translation type="unfinished">aucun étalonnage dans {folder}</translation>
         </message>
         <message>
+            <source>found bad     {day}: {reason}</source>
+            <translation type="unfinished">jugé mauvais  {day} : {reason}</translation>
+        </message>
+        <message>
+            <source>  (in use)</source>
+            <translation type="unfinished">  (utilisé)</translation>
+        </message>
+        <message>
+            <source>file          {path}{in_use}</source>
+            <translation type="unfinished">fichier       {path}{in_use}</translation>
+        </message>
+        <message>
             <source>--format {kind}: only yaml and ros can be written</source>
             <translation type="unfinished">--format {kind} : seuls yaml et ros peuvent être écrits</translation>
         </message>
         <message>
             <source>{id} written to {files}</source>
             <translation type="unfinished">{id} écrit dans {files}</translation>
+        </message>
+        <message>
+            <source>in use from now on; kept as {path}</source>
+            <translation type="unfinished">utilisé désormais ; conservé sous {path}</translation>
         </message>
         <message>
             <source>--out {out}: only .pdf can be written</source>
@@ -788,8 +808,44 @@
             <translation type="unfinished">imprimez à 100 %, sans ajuster à la page, et mesurez la ligne de 100 mm</translation>
         </message>
         <message>
+            <source>id            {id}</source>
+            <translation type="unfinished">identifiant   {id}</translation>
+        </message>
+        <message>
+            <source>created       {created:%Y-%m-%d %H:%M} {zone}</source>
+            <translation type="unfinished">créé          {created:%Y-%m-%d %H:%M} {zone}</translation>
+        </message>
+        <message>
+            <source>board         {board}</source>
+            <translation type="unfinished">mire          {board}</translation>
+        </message>
+        <message>
+            <source>{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} views</source>
+            <translation type="unfinished">{camera:13} {width}x{height}  {lens}  {rms_px:.3f} px, {views} vues</translation>
+        </message>
+        <message>
+            <source>pair          {rms_px:.3f} px, baseline {baseline_mm:.2f} mm</source>
+            <translation type="unfinished">paire         {rms_px:.3f} px, base {baseline_mm:.2f} mm</translation>
+        </message>
+        <message>
+            <source>held back     {views} pairs: {rms_mm:.3f} mm RMS, largest {max_mm:.3f} mm, scale {scale:.5f} ± {scale_sd:.5f}</source>
+            <translation type="unfinished">mises de côté {views} paires : {rms_mm:.3f} mm RMS, au plus {max_mm:.3f} mm, échelle {scale:.5f} ± {scale_sd:.5f}</translation>
+        </message>
+        <message>
             <source>uncertainty   the calibration's own uncertainty is not known: every stated radius leaves it out</source>
             <translation type="unfinished">incertitude   l’incertitude propre à l’étalonnage n’est pas connue : aucun rayon indiqué ne la comprend</translation>
+        </message>
+        <message>
+            <source>known</source>
+            <translation type="unfinished">connu</translation>
+        </message>
+        <message>
+            <source>world         {known}</source>
+            <translation type="unfinished">monde         {known}</translation>
+        </message>
+        <message>
+            <source>note          {note}</source>
+            <translation type="unfinished">remarque      {note}</translation>
         </message>
         <message>
             <source>{in_use:?in use: {in_use}|no calibration is in use}</source>
@@ -800,24 +856,100 @@
             <translation type="unfinished">--lens {lens!r} : il y a {known_lenses} ; equidistant est le modèle fisheye</translation>
         </message>
         <message>
+            <source>the picture of rig {name}</source>
+            <translation type="unfinished">l’image du montage {name}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} not used  {reason}</source>
+            <translation type="unfinished">{name:&lt;24} non utilisée  {reason}</translation>
+        </message>
+        <message>
+            <source>{name:&lt;24} {corners:&gt;3} corners  squares {square_px:.0f} px  edges {edge_px:.1f} px  window ±{window} px</source>
+            <translation type="unfinished">{name:&lt;24} {corners:&gt;3} coins  cases {square_px:.0f} px  bords {edge_px:.1f} px  fenêtre ±{window} px</translation>
+        </message>
+        <message>
+            <source>  views held back      {rms_px:.4f} px</source>
+            <translation type="unfinished">  vues mises de côté   {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>calibration {id}, {board}</source>
+            <translation type="unfinished">étalonnage {id}, {board}</translation>
+        </message>
+        <message>
+            <source>  by itself {rms_px:.4f} px</source>
+            <translation type="unfinished">  seule {rms_px:.4f} px</translation>
+        </message>
+        <message>
+            <source>both     {rms_px:.4f} px RMS over {pairs} pairs</source>
+            <translation type="unfinished">les deux {rms_px:.4f} px RMS sur {pairs} paires</translation>
+        </message>
+        <message>
+            <source>  T_right_left {place} mm ± {sd}; baseline {baseline_mm:.3f} mm</source>
+            <translation type="unfinished">  T_right_left {place} mm ± {sd} ; base {baseline_mm:.3f} mm</translation>
+        </message>
+        <message>
+            <source>  agrees: {check}</source>
+            <translation type="unfinished">  concorde : {check}</translation>
+        </message>
+        <message>
+            <source>  CONTRADICTS: {check}</source>
+            <translation type="unfinished">  CONTREDIT : {check}</translation>
+        </message>
+        <message>
             <source>  not checked: the board's size; give --baseline-mm, or a second board (--check-images, --check-board)</source>
             <translation type="unfinished">  non vérifié : la taille de la mire ; indiquez --baseline-mm ou une seconde mire (--check-images, --check-board)</translation>
+        </message>
+        <message>
+            <source>verdict: {grade}: {verdict}</source>
+            <translation type="unfinished">verdict : {grade} : {verdict}</translation>
+        </message>
+        <message>
+            <source>  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px</source>
+            <translation type="unfinished">  Méthode simple d’OpenCV (toutes les vues, cinq coefficients) : {rms_px:.4f} px</translation>
         </message>
         <message>
             <source>  not validated: no pairs were held back (--hold-back N)</source>
             <translation type="unfinished">  non validé : aucune paire n’a été mise de côté (--hold-back N)</translation>
         </message>
         <message>
+            <source>  {views} pairs held back: corners within {rms_mm:.3f} mm RMS (at most {max_mm:.3f} mm) of the true board, lengths x {scale:.5f} ± {scale_sd:.5f}, epipolar {epipolar_px:.3f} px</source>
+            <translation type="unfinished">  {views} paires mises de côté : coins à {rms_mm:.3f} mm RMS (au plus {max_mm:.3f} mm) de la vraie mire, longueurs × {scale:.5f} ± {scale_sd:.5f}, épipolaire {epipolar_px:.3f} px</translation>
+        </message>
+        <message>
+            <source>{name:&lt;8} {rms_px:.4f} px RMS over {views} views of {width}x{height}</source>
+            <translation type="unfinished">{name:&lt;8} {rms_px:.4f} px RMS sur {views} vues de {width}x{height}</translation>
+        </message>
+        <message>
+            <source>  {name}  {zero:&gt;12} (not supported by the views)</source>
+            <translation type="unfinished">  {name}  {zero:&gt;12} (non étayé par les vues)</translation>
+        </message>
+        <message>
             <source>left out</source>
             <translation type="unfinished">écarté</translation>
+        </message>
+        <message>
+            <source>  {name:&lt;32} not used: {reason}</source>
+            <translation type="unfinished">  {name:&lt;32} non utilisée : {reason}</translation>
         </message>
         <message>
             <source>no camera is plugged in</source>
             <translation type="unfinished">aucune caméra n’est branchée</translation>
         </message>
         <message>
+            <source>{side}: {lack}; saved all the same, for when it is</source>
+            <translation type="unfinished">{side} : {lack} ; enregistré tout de même, pour plus tard</translation>
+        </message>
+        <message>
+            <source>warning: {warning}</source>
+            <translation type="unfinished">avertissement : {warning}</translation>
+        </message>
+        <message>
             <source>saved in {file}</source>
             <translation type="unfinished">enregistré dans {file}</translation>
+        </message>
+        <message>
+            <source>skew (right after left): {skew:.1f} ms</source>
+            <translation type="unfinished">décalage (droite après gauche) : {skew:.1f} ms</translation>
         </message>
         <message>
             <source>both cameras see {share:.0%} of the needle's cone ({basis})</source>
@@ -856,8 +988,24 @@
             <translation type="unfinished">ceux de la livraison, moins la latence</translation>
         </message>
         <message>
+            <source>{name}: {width}x{height}, {rate:.1f} pictures/s, jitter {jitter_ms:.1f} ms, {repeated:.1f} % repeated</source>
+            <translation type="unfinished">{name} : {width}x{height}, {rate:.1f} images/s, gigue {jitter_ms:.1f} ms, {repeated:.1f} % répétées</translation>
+        </message>
+        <message>
+            <source>  brightness {brightness:.0f} of 255, {saturated:.1f} % overexposed, noise {noise:.1f} grey values</source>
+            <translation type="unfinished">  luminosité {brightness:.0f} sur 255, {saturated:.1f} % surexposé, bruit {noise:.1f} niveaux de gris</translation>
+        </message>
+        <message>
+            <source>  capture times: {times}; {age_ms:.0f} ms to delivery</source>
+            <translation type="unfinished">  instants de prise : {times} ; {age_ms:.0f} ms jusqu’à la livraison</translation>
+        </message>
+        <message>
             <source>marker's colour: the usual red (the tracker panel's Learn takes another)</source>
             <translation type="unfinished">couleur du marqueur : le rouge habituel (dans le panneau du suivi, Capter en prend une autre)</translation>
+        </message>
+        <message>
+            <source>marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within {angle:.0f}° (`acus camera use --forget-colour` goes back to the usual red)</source>
+            <translation type="unfinished">couleur du marqueur : apprise, rouge {red:.0f} vert {green:.0f} bleu {blue:.0f}, à {angle:.0f}° près (`acus camera use --forget-colour` revient au rouge habituel)</translation>
         </message>
         <message>
             <source>name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW</source>
@@ -880,12 +1028,28 @@
             <translation type="unfinished">LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, {hu:?{hu:g} UH|pas d’UH : remplissage, rien n’y a été mesuré}</translation>
         </message>
         <message>
+            <source>values  sha256 {digest} of {size} {kind}</source>
+            <translation type="unfinished">valeurs  sha256 {digest} de {size} {kind}</translation>
+        </message>
+        <message>
             <source>{option} {point!r}: three numbers X,Y,Z in mm</source>
             <translation type="unfinished">{option} {point!r} : trois nombres X,Y,Z en mm</translation>
         </message>
         <message>
+            <source>opens with --remedy {remedy}</source>
+            <translation type="unfinished">s’ouvre avec --remedy {remedy}</translation>
+        </message>
+        <message>
             <source>the library is empty; `acus ct import DIR` takes a CT in</source>
             <translation type="unfinished">la bibliothèque est vide ; `acus ct import DIR` y ajoute un scanner</translation>
+        </message>
+        <message>
+            <source>{name}: {label}, {files}: {content}</source>
+            <translation type="unfinished">{name} : {label}, {files} : {content}</translation>
+        </message>
+        <message>
+            <source>; it opens with --remedy {remedy}</source>
+            <translation type="unfinished">; il s’ouvre avec --remedy {remedy}</translation>
         </message>
         <message>
             <source>--remedy {remedy!r} is none of {valid}</source>
@@ -904,12 +1068,52 @@
             <translation type="unfinished">{option} {argument!r} n’est pas {form} : {count} nombres entiers, sans espaces</translation>
         </message>
         <message>
+            <source>usable </source>
+            <translation type="unfinished">lisible </translation>
+        </message>
+        <message>
+            <source>refused</source>
+            <translation type="unfinished">refusée</translation>
+        </message>
+        <message>
+            <source>spacing {spacing} mm</source>
+            <translation type="unfinished">espacement {spacing} mm</translation>
+        </message>
+        <message>
+            <source>origin {origin} mm</source>
+            <translation type="unfinished">origine {origin} mm</translation>
+        </message>
+        <message>
+            <source>direction {direction}</source>
+            <translation type="unfinished">direction {direction}</translation>
+        </message>
+        <message>
+            <source>on request: {remedies}</source>
+            <translation type="unfinished">sur demande : {remedies}</translation>
+        </message>
+        <message>
             <source>no serial ports; plug the robot in, or try `acus device emulate`</source>
             <translation type="unfinished">aucun port série ; branchez le robot ou essayez `acus device emulate`</translation>
         </message>
         <message>
+            <source>(the board does not say)</source>
+            <translation type="unfinished">(la carte ne le dit pas)</translation>
+        </message>
+        <message>
             <source>the robot was greeted but sends no joint angles; see `acus device test`</source>
             <translation type="unfinished">le robot a répondu mais n’envoie pas d’angles articulaires ; voir `acus device test`</translation>
+        </message>
+        <message>
+            <source>cleared for {force:g} N</source>
+            <translation type="unfinished">autorisé jusqu’à {force:g} N</translation>
+        </message>
+        <message>
+            <source>device     {device}: {clearance}</source>
+            <translation type="unfinished">appareil   {device} : {clearance}</translation>
+        </message>
+        <message>
+            <source>not understood: {error}</source>
+            <translation type="unfinished">non compris : {error}</translation>
         </message>
         <message>
             <source>{level}  {id}  version {version}  {title:~}{shipped:?|  (your own)}</source>
@@ -974,6 +1178,10 @@
         <message>
             <source>{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}</source>
             <translation type="unfinished">{id}  {plate}  {touched} touchés, {picked} désignés  {rig}  {trusted:?bon|ne convient pas}</translation>
+        </message>
+        <message>
+            <source>no registration checks in {folder}</source>
+            <translation type="unfinished">aucune vérification du recalage dans {folder}</translation>
         </message>
         <message>
             <source>--target {target}: three numbers X,Y,Z in mm are needed</source>
@@ -1324,12 +1532,20 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">les tableaux et les images sont dans {folder}</translation>
         </message>
         <message>
+            <source>cannot be used: {error}</source>
+            <translation type="unfinished">inutilisable : {error}</translation>
+        </message>
+        <message>
             <source>--orientation {orientation!r}: use {valid}</source>
             <translation type="unfinished">--orientation {orientation!r} : utilisez {valid}</translation>
         </message>
         <message>
             <source>{files}: from world (robot) to patient (LPS)</source>
             <translation type="unfinished">{files} : du monde (robot) au patient (LPS)</translation>
+        </message>
+        <message>
+            <source>turns by {angle:.3f}°, millimetres, LPS as in the file</source>
+            <translation type="unfinished">tourne de {angle:.3f}°, millimètres, LPS comme dans le fichier</translation>
         </message>
         <message>
             <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
@@ -1340,8 +1556,20 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">--origin {origin!r} ; noms valides : {names}</translation>
         </message>
         <message>
+            <source>{file}: {profile}, world at the {place}</source>
+            <translation type="unfinished">{file} : {profile}, monde en {place}</translation>
+        </message>
+        <message>
+            <source>{file}: {profile}, world at the {place}, {count} meshes beside it</source>
+            <translation type="unfinished">{file} : {profile}, monde à {place}, {count} maillages à côté</translation>
+        </message>
+        <message>
             <source>--out {out}: a device profile is a .yaml file</source>
             <translation type="unfinished">--out {out} : un profil d’appareil est un fichier .yaml</translation>
+        </message>
+        <message>
+            <source># Lengths from {file}, all else from the profile {like}. SI units.</source>
+            <translation type="unfinished"># Longueurs de {file}, le reste du profil {like}. Unités SI.</translation>
         </message>
         <message>
             <source>exercise {name} has no CT in Hounsfield values: nothing tells what its needle meets</source>
@@ -1408,12 +1636,12 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">compilation de la boucle : {waited:.0f} s</translation>
         </message>
         <message>
-            <source>starting robot and cameras</source>
-            <translation type="unfinished">démarrage du robot et des caméras</translation>
+            <source>waiting for the first picture</source>
+            <translation type="unfinished">attente de la première image</translation>
         </message>
         <message>
-            <source>starting robot and cameras: {waited:.0f} s</source>
-            <translation type="unfinished">démarrage du robot et des caméras : {waited:.0f} s</translation>
+            <source>waiting for the first picture: {waited:.0f} s</source>
+            <translation type="unfinished">attente de la première image : {waited:.0f} s</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -2260,10 +2488,6 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">la carte signale l’erreur {code}, que ce programme ne connaît pas ; voyez son micrologiciel</translation>
         </message>
         <message>
-            <source>the link has not been opened yet; call open() first</source>
-            <translation type="unfinished">la liaison n’a pas encore été ouverte ; appelez d’abord open()</translation>
-        </message>
-        <message>
             <source>the pen's joint angles {angles} are not finite</source>
             <translation type="unfinished">les angles {angles} des articulations du stylo ne sont pas finis</translation>
         </message>
@@ -2790,6 +3014,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         <message>
             <source>file names a file of structures</source>
             <translation type="unfinished">file nomme un fichier de structures</translation>
+        </message>
+        <message>
+            <source>plan: trial_entry_mm goes with target_mm: give both, or neither</source>
+            <translation type="unfinished">plan : trial_entry_mm va avec target_mm : donnez les deux, ou aucun</translation>
         </message>
         <message>
             <source>rotation_deg must be within ±360°</source>
@@ -7100,10 +7328,6 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">le champ de la scène est un {type_name} ; liez-le d’abord</translation>
         </message>
         <message>
-            <source>there is no hand {name!r}; there are {hands}</source>
-            <translation type="unfinished">il n’y a pas de main {name!r} ; il existe {hands}</translation>
-        </message>
-        <message>
             <source>the target lies at depth {depth} m; it must be above 0</source>
             <translation type="unfinished">la cible est à la profondeur {depth} m ; elle doit être supérieure à 0</translation>
         </message>
@@ -7394,10 +7618,6 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         <message>
             <source>MuJoCo's model of {profile_name} still moves at {speed:.2g} rad/s after 0.4 s; the torques {torques} N·m may be too large</source>
             <translation type="unfinished">le modèle MuJoCo de {profile_name} bouge encore à {speed:.2g} rad/s après 0,4 s ; les couples {torques} N·m sont peut-être trop grands</translation>
-        </message>
-        <message>
-            <source>tilt is {tilt} rad; a cone needs more than 0 and less than π/2</source>
-            <translation type="unfinished">l’inclinaison est de {tilt} rad ; un cône demande plus de 0 et moins de π/2</translation>
         </message>
         <message>
             <source>no tool point within {tilt_deg:g}° of tilt is reached in mode {mode}, assembly {assembly}</source>
@@ -12834,8 +13054,8 @@ Lettres : directions du patient
             <translation type="unfinished">Montrez-moi cet exercice</translation>
         </message>
         <message>
-            <source>difficulty {n} of {most}</source>
-            <translation type="unfinished">difficulté {n} sur {most}</translation>
+            <source>level {n} of {most}</source>
+            <translation type="unfinished">niveau {n} sur {most}</translation>
         </message>
         <message>
             <source>Assessment</source>
@@ -13043,6 +13263,10 @@ Lettres : directions du patient
         <message>
             <source>You choose the entry here, so there is nothing to show before you have.</source>
             <translation type="unfinished">Ici, vous choisissez le point d’entrée ; avant cela, il n’y a rien à montrer.</translation>
+        </message>
+        <message>
+            <source>Steps that it teaches</source>
+            <translation type="unfinished">Étapes enseignées</translation>
         </message>
         <message>
             <source>What is scored</source>
@@ -14469,6 +14693,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Un instant : cet ordinateur est occupé et ses images arrivent en retard. Fermez d’autres programmes.</translation>
         </message>
         <message>
+            <source>Draw the needle out, then take the next one (J); or give more (Alt+J)</source>
+            <translation type="unfinished">Retirer l'aiguille, puis prendre la suivante (J) ; ou en donner plus (Alt+J)</translation>
+        </message>
+        <message>
             <source>Paused: the needle swings in the simulated hand; it goes on by itself.</source>
             <translation type="unfinished">En pause : l’aiguille oscille dans la main simulée ; l’essai reprend de lui-même.</translation>
         </message>
@@ -14521,6 +14749,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Cible {n} sur {of} : {way}</translation>
         </message>
         <message>
+            <source>The patient is turned: Enter ends the attempt</source>
+            <translation type="unfinished">Le patient est tourné : Entrée termine l'essai</translation>
+        </message>
+        <message>
+            <source>Needle out: turn the patient (J)</source>
+            <translation type="unfinished">Aiguille retirée : tourner le patient (J)</translation>
+        </message>
+        <message>
             <source>Push to its place, then leave electrode {n} (J)</source>
             <translation type="unfinished">Poussez jusqu’à sa place, puis laissez l’électrode {n} (J)</translation>
         </message>
@@ -14529,12 +14765,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>Retirez l’aiguille de la peau, tournez-la vers {n}</translation>
         </message>
         <message>
-            <source>Draw the needle out, then take the next one (J)</source>
-            <translation type="unfinished">Retirez l’aiguille, puis prenez la suivante (J)</translation>
-        </message>
-        <message>
             <source>Draw the needle out, or give more (J)</source>
             <translation>Retirez l'aiguille, ou injectez encore (J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw out and turn the patient (Alt+J)</source>
+            <translation type="unfinished">Mandrin retiré (J) pour un autre ; ou retirer l'aiguille et tourner le patient (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Stylet out (J) for another; or draw the needle out</source>
+            <translation type="unfinished">Mandrin retiré (J) pour un autre ; ou retirer l'aiguille</translation>
+        </message>
+        <message>
+            <source>Turn the patient puncture side down (J)</source>
+            <translation type="unfinished">Tourner le patient du côté de la ponction (J)</translation>
         </message>
         <message>
             <source>Another sample: stylet out (J). Enter ends the attempt</source>
@@ -14999,6 +15243,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Retrieve by</source>
             <translation type="unfinished">Récupérer par</translation>
+        </message>
+        <message>
+            <source>Ablate the lesion in the liver with 5 mm of liver about it. Ask for consent and check coagulation (J, J). Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J), and have the patient turned puncture side down (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
+            <translation type="unfinished">Détruisez la lésion du foie avec 5 mm de foie autour d'elle. Demandez le consentement et vérifiez la coagulation (J, J). Amenez l'aiguille au premier endroit et laissez-y l'électrode (J), retirez l'aiguille de la peau, tournez-la vers le trajet suivant, et ainsi de suite pour les trois. Puis démarrez le générateur (J) et faites tourner le patient du côté de la ponction (J). Les zones résultent de l'endroit où les électrodes se trouvent réellement : 40 W pendant 20 min sont prévus.</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, ask for consent and check coagulation (J, J), local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J). At the end draw the needle out and have the patient turned puncture side down (Alt+J), and scan once more.</source>
+            <translation type="unfinished">Prélevez deux échantillons du nodule du poumon droit par scans de contrôle : marquez le point d'entrée d'après la grille, demandez le consentement et vérifiez la coagulation (J, J), anesthésie locale jusqu'à la plèvre (J), l'aiguille externe (J), une pause, et une seule traversée de la plèvre. Mandrin retiré, pistolet introduit (J), tir (Ctrl+J), pistolet retiré, mandrin remis. Refaites un scanner (S) et surveillez le moniteur et le patient : le poumon peut se rétracter ou saigner. Dites-le dès que vous le voyez (Shift+J), choisissez ce qu'il faut faire, et faites-le (Ctrl+Shift+J). À la fin, retirez l'aiguille, faites tourner le patient du côté de la ponction (Alt+J) et refaites un scanner.</translation>
+        </message>
+        <message>
+            <source>Take two samples of the nodule in the right lung. Choose the path first: place the entry (E, or the map of entries in the panel Plan) so that it meets no rib, little lung and no fissure. Then ask for consent and check coagulation (J, J), give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open. At the end draw the needle out and have the patient turned puncture side down at once (J).</source>
+            <translation type="unfinished">Prélevez deux échantillons du nodule du poumon droit. Choisissez d'abord la trajectoire : placez le point d'entrée (E, ou la carte des entrées du panneau Plan) de sorte qu'elle ne rencontre aucune côte, peu de poumon et aucune scissure. Demandez ensuite le consentement et vérifiez la coagulation (J, J), donnez l'anesthésie locale juste avant la plèvre (J), retirez cette aiguille et prenez l'aiguille externe (J). Faites une pause avant la plèvre, franchissez-la d'un seul geste pendant que le nodule est au repos, et arrêtez la pointe au bord proche du nodule. Puis mandrin retiré, pistolet introduit (J), tir (Ctrl+J), pistolet retiré, mandrin remis ; tournez l'encoche et prélevez encore. Gardez l'embase fermée : l'air entre là où elle est ouverte. À la fin, retirez l'aiguille et faites tourner le patient aussitôt du côté de la ponction (J).</translation>
         </message>
         <message>
             <source>Web address</source>
@@ -17976,6 +18232,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">annuler, rétablir</translation>
         </message>
         <message>
+            <source>another step in its place</source>
+            <translation type="unfinished">une autre étape à sa place</translation>
+        </message>
+        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">enregistrer le plan, enregistrer sous</translation>
         </message>
@@ -19208,10 +19468,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Un bras simulé exécute le plan</translation>
         </message>
         <message>
-            <source>Ablate the lesion in the liver with 5 mm of liver about it. Bring the needle to the first place and leave the electrode there (J), draw the needle back out of the skin, turn it to the next path, and so on for all three. Then start the generator (J). The zones follow from where the electrodes truly lie: planned are 40 W for 20 min.</source>
-            <translation>Détruisez la lésion du foie avec 5 mm de foie autour. Amenez l’aiguille à la première place et laissez-y l’électrode (J), retirez l’aiguille de la peau, tournez-la vers le trajet suivant, et ainsi pour les trois. Puis démarrez le générateur (J). Les zones suivent de la vraie place des électrodes : prévus sont 40 W pendant 20 min.</translation>
-        </message>
-        <message>
             <source>Adversary: attempts that are paid and ought not to be</source>
             <translation type="unfinished">Adversaire : essais récompensés qui ne devraient pas l’être</translation>
         </message>
@@ -19306,6 +19562,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Certificates</source>
             <translation type="unfinished">Certificats</translation>
+        </message>
+        <message>
+            <source>Checklist before the needle</source>
+            <translation type="unfinished">Liste de contrôle avant l'aiguille</translation>
         </message>
         <message>
             <source>Compensation of gravity and joint friction</source>
@@ -19608,6 +19868,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Rapport du trajet</translation>
         </message>
         <message>
+            <source>Patient turned after</source>
+            <translation type="unfinished">Patient tourné après</translation>
+        </message>
+        <message>
             <source>Pause before the membrane</source>
             <translation>Pause devant la membrane</translation>
         </message>
@@ -19714,14 +19978,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
             <translation>De la première insertion à la biopsie entière d'un nodule pulmonaire : main et tissu, choix d'un trajet, trajet doublement oblique entre deux côtes, biopsie entière, une où quelque chose peut arriver, et une évaluation par scans de contrôle seuls.</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung by control scans: mark the entry by the grid, local anaesthetic down to the pleura (J), the outer needle (J), a pause, and through the pleura once. Stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in. Scan again (S), and watch monitor and patient: the lung may fall back, or bleed. Say so as soon as you see it (Shift+J), choose what is to be done, and do it (Ctrl+Shift+J).</source>
-            <translation>Prélevez deux échantillons du nodule du poumon droit sous scans de contrôle : marquez l'entrée d'après la grille, anesthésie locale jusqu'à la plèvre (J), l'aiguille externe (J), une pause, et une seule fois à travers la plèvre. Stylet retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, stylet remis. Refaites un scan (S), et surveillez moniteur et patient : le poumon peut se rétracter, ou saigner. Dites-le dès que vous le voyez (Shift+J), choisissez ce qu'il faut faire, et faites-le (Ctrl+Shift+J).</translation>
-        </message>
-        <message>
-            <source>Take two samples of the nodule in the right lung. First give local anaesthetic just short of the pleura (J), draw that needle out and take the outer needle (J). Pause before the pleura, cross it in one go while the nodule rests, and stop with the tip at the nodule's near edge. Then stylet out, gun in (J), fire (Ctrl+J), gun out, stylet in; turn the notch and take another. Keep the hub closed: air gets in where it is open.</source>
-            <translation>Prenez deux prélèvements du nodule du poumon droit. Injectez d'abord l'anesthésique local juste devant la plèvre (J), retirez cette aiguille et prenez l'aiguille externe (J). Arrêtez-vous devant la plèvre, traversez-la d'un seul geste pendant que le nodule est au repos, et arrêtez la pointe à son bord proche. Puis stylet retiré, pistolet en place (J), tir (Ctrl+J), pistolet retiré, stylet en place ; tournez l'encoche et prenez-en un autre. Gardez l'embase fermée : ouverte, elle laisse entrer l'air.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -20085,6 +20341,13 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">
                 <numerusform>{n} contour présent deux fois dans le fichier, compté une fois</numerusform>
                 <numerusform>{n} contours présents deux fois dans le fichier, comptés une fois</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>{n} files</source>
+            <translation type="unfinished">
+                <numerusform>{n} fichier</numerusform>
+                <numerusform>{n} fichiers</numerusform>
             </translation>
         </message>
         <message numerus="yes">
@@ -20598,6 +20861,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>
+  teaches: {steps}</source>
+            <translation type="unfinished">
+  enseigne : {steps}</translation>
+        </message>
+        <message>
+            <source>
   complications, by lot at published odds: pneumothorax {air:.0f} % of a needle along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %</source>
             <translation>
   complications, tirées au sort selon des cotes publiées : pneumothorax {air:.0f} % pour une aiguille suivant le plan, dont {drain:.0f} % avec drain ; sang dans le poumon {blood:.0f} %</translation>
@@ -20749,6 +21018,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">posez maintenant le stylo dans une rainure et roulez-le sur lui-même d’un quart de tour ou plus…</translation>
         </message>
         <message>
+            <source>kept in {path}</source>
+            <translation type="unfinished">conservé dans {path}</translation>
+        </message>
+        <message>
             <source>no files of your own yet; save them in these folders (make what is missing):</source>
             <translation type="unfinished">pas encore de fichiers à vous ; enregistrez-les dans ces dossiers (créez ce qui manque) :</translation>
         </message>
@@ -20827,6 +21100,26 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>never warns</source>
             <translation type="unfinished">n’avertit jamais</translation>
+        </message>
+        <message>
+            <source>warns within {warn_mm:g} mm</source>
+            <translation type="unfinished">avertit à moins de {warn_mm:g} mm</translation>
+        </message>
+        <message>
+            <source>{name}  {kind}  {millilitres:.2f} ml  centre LPS {place} mm  {warn}</source>
+            <translation type="unfinished">{name}  {kind}  {millilitres:.2f} ml  centre LPS {place} mm  {warn}</translation>
+        </message>
+        <message>
+            <source>at depth {depth_mm:.1f} mm</source>
+            <translation type="unfinished">à {depth_mm:.1f} mm de profondeur</translation>
+        </message>
+        <message>
+            <source>, {inside_mm:.1f} mm inside</source>
+            <translation type="unfinished">, {inside_mm:.1f} mm à l’intérieur</translation>
+        </message>
+        <message>
+            <source>note  {note}</source>
+            <translation type="unfinished">remarque  {note}</translation>
         </message>
         <message>
             <source>the record was written while it was read</source>
@@ -20959,6 +21252,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Pour la recherche</translation>
+        </message>
+        <message>
+            <source>Research</source>
+            <translation type="unfinished">Recherche</translation>
         </message>
         <message>
             <source>{text!r} is no date: write {day}, or two days with a dash</source>
@@ -23405,6 +23702,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>lines : {lines} : un nombre impair a une ligne au milieu</translation>
         </message>
         <message>
+            <source>inr {inr:g}: above {most:g} coagulation is corrected before a needle goes in; give a patient with {most:g} or less</source>
+            <translation type="unfinished">inr {inr:g} : au-dessus de {most:g}, la coagulation est corrigée avant qu'une aiguille n'entre ; indiquez un patient avec {most:g} ou moins</translation>
+        </message>
+        <message>
+            <source>platelets {platelets:g} · 10⁹/l: below {least:g} they are given before a needle goes in; give a patient with {least:g} or more</source>
+            <translation type="unfinished">platelets {platelets:g} · 10⁹/l : en dessous de {least:g}, des plaquettes sont données avant qu'une aiguille n'entre ; indiquez un patient avec {least:g} ou plus</translation>
+        </message>
+        <message>
+            <source>procedure: rollover is after samples or an ablation: add biopsy or ablation, or leave it out</source>
+            <translation type="unfinished">procedure : rollover suit des prélèvements ou une ablation : ajoutez biopsy ou ablation, ou omettez-le</translation>
+        </message>
+        <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
             <translation>procedure : prélèvements et ablation sont deux exercices : omettez l’un</translation>
         </message>
@@ -23529,6 +23838,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>le générateur a détruit</translation>
         </message>
         <message>
+            <source>the patient knows the risks and agrees</source>
+            <translation type="unfinished">le patient connaît les risques et consent</translation>
+        </message>
+        <message>
+            <source>coagulation checked</source>
+            <translation type="unfinished">coagulation vérifiée</translation>
+        </message>
+        <message>
+            <source>the patient is turned, puncture side down</source>
+            <translation type="unfinished">le patient est tourné du côté de la ponction</translation>
+        </message>
+        <message>
             <source>needle for local anaesthetic</source>
             <translation>aiguille d'anesthésie locale</translation>
         </message>
@@ -23557,6 +23878,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>cet exercice ne détruit rien</translation>
         </message>
         <message>
+            <source>the patient was turned: nothing more is done with the needle</source>
+            <translation type="unfinished">le patient a été tourné : plus rien n'est fait avec l'aiguille</translation>
+        </message>
+        <message>
             <source>this exercise takes no samples</source>
             <translation>cet exercice ne comporte pas de prélèvement</translation>
         </message>
@@ -23573,12 +23898,40 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>{count} prélèvements ont été faits : l'exercice n'en permet pas plus</translation>
         </message>
         <message>
+            <source>this exercise has no checklist</source>
+            <translation type="unfinished">cet exercice n'a pas de liste de contrôle</translation>
+        </message>
+        <message>
+            <source>that was checked already</source>
+            <translation type="unfinished">cela a déjà été vérifié</translation>
+        </message>
+        <message>
+            <source>in this exercise the patient is not turned</source>
+            <translation type="unfinished">dans cet exercice, le patient n'est pas tourné</translation>
+        </message>
+        <message>
+            <source>no sample was taken: the patient is turned after the last one</source>
+            <translation type="unfinished">aucun prélèvement n'a été fait : le patient est tourné après le dernier</translation>
+        </message>
+        <message>
+            <source>nothing was ablated: the patient is turned after that</source>
+            <translation type="unfinished">rien n'a été détruit : le patient est tourné ensuite</translation>
+        </message>
+        <message>
+            <source>coagulation checked: INR {inr:g} (at most {most:g}), platelets {platelets:g} · 10⁹/l (at least {least:g})</source>
+            <translation type="unfinished">coagulation vérifiée : INR {inr:g} (au plus {most:g}), plaquettes {platelets:g} · 10⁹/l (au moins {least:g})</translation>
+        </message>
+        <message>
             <source>not done: the needle's depth is not measured now; let both cameras see the marker and do it again</source>
             <translation>non fait : la profondeur de l'aiguille n'est pas mesurée ; montrez le marqueur aux deux caméras et recommencez</translation>
         </message>
         <message>
             <source>the needle for local anaesthetic is still in the body: draw it out first</source>
             <translation type="unfinished">l’aiguille d’anesthésie locale est encore dans le corps : retirez-la d’abord</translation>
+        </message>
+        <message>
+            <source>the needle is still in the body: draw it out, then turn the patient</source>
+            <translation type="unfinished">l'aiguille est encore dans le corps : retirez-la, puis tournez le patient</translation>
         </message>
         <message>
             <source>the tip is outside the skin: insert it first</source>
@@ -23625,8 +23978,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation>L'aiguille d'anesthésie locale : {met}, à {clock}.</translation>
         </message>
         <message>
+            <source>Consent or coagulation was not checked before the needle went in.</source>
+            <translation type="unfinished">Le consentement ou la coagulation n'a pas été vérifié avant l'entrée de l'aiguille.</translation>
+        </message>
+        <message>
             <source>The hub was open to air for {seconds:.1f} s with the tip in the body.</source>
             <translation>L'embase est restée ouverte à l'air {seconds:.1f} s, la pointe dans le corps.</translation>
+        </message>
+        <message>
+            <source>Nobody turned the patient after the needle was out.</source>
+            <translation type="unfinished">Personne n'a tourné le patient après le retrait de l'aiguille.</translation>
+        </message>
+        <message>
+            <source>The patient was turned {seconds:.0f} s after the needle was out.</source>
+            <translation type="unfinished">Le patient a été tourné {seconds:.0f} s après le retrait de l'aiguille.</translation>
         </message>
         <message>
             <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion; the core passed {aside:.1f} mm beside its middle.</source>
@@ -23731,6 +24096,30 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>What follows in the usual order</source>
             <translation>Ce qui suit dans l'ordre habituel</translation>
+        </message>
+        <message>
+            <source>What may be done in its place</source>
+            <translation type="unfinished">Ce qui peut être fait à la place</translation>
+        </message>
+        <message>
+            <source>Give more (Alt+J)</source>
+            <translation type="unfinished">En donner plus (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Turn the patient (Alt+J)</source>
+            <translation type="unfinished">Tourner le patient (Alt+J)</translation>
+        </message>
+        <message>
+            <source>Ask for consent (J)</source>
+            <translation type="unfinished">Demander le consentement (J)</translation>
+        </message>
+        <message>
+            <source>Check coagulation (J)</source>
+            <translation type="unfinished">Vérifier la coagulation (J)</translation>
+        </message>
+        <message>
+            <source>Turn the patient (J)</source>
+            <translation type="unfinished">Tourner le patient (J)</translation>
         </message>
         <message>
             <source>How far the gun's needle runs ahead of the outer needle's tip</source>
@@ -24087,6 +24476,62 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one</source>
             <translation type="unfinished">{path} n’est pas le tableau d’un balayage (sans {columns}) : `acus cohort sweep` en écrit un</translation>
+        </message>
+        <message>
+            <source>{path}: register() does not work: {reason}</source>
+            <translation type="unfinished">{path} : register() ne fonctionne pas : {reason}</translation>
+        </message>
+        <message>
+            <source>checklist: consent and coagulation</source>
+            <translation type="unfinished">liste de contrôle : consentement et coagulation</translation>
+        </message>
+        <message>
+            <source>choosing the path</source>
+            <translation type="unfinished">choisir la trajectoire</translation>
+        </message>
+        <message>
+            <source>the path report of a lung biopsy</source>
+            <translation type="unfinished">le rapport de la trajectoire d'une biopsie pulmonaire</translation>
+        </message>
+        <message>
+            <source>the entry by a marker grid</source>
+            <translation type="unfinished">le point d'entrée d'après une grille de repérage</translation>
+        </message>
+        <message>
+            <source>the way in by control scans</source>
+            <translation type="unfinished">la progression par scans de contrôle</translation>
+        </message>
+        <message>
+            <source>local anaesthetic down to the membrane</source>
+            <translation type="unfinished">anesthésie locale jusqu'à la membrane</translation>
+        </message>
+        <message>
+            <source>the pause before the membrane</source>
+            <translation type="unfinished">la pause avant la membrane</translation>
+        </message>
+        <message>
+            <source>samples through a coaxial needle</source>
+            <translation type="unfinished">prélèvements par une aiguille coaxiale</translation>
+        </message>
+        <message>
+            <source>noticing and answering complications</source>
+            <translation type="unfinished">remarquer les complications et y répondre</translation>
+        </message>
+        <message>
+            <source>several electrodes and the generator</source>
+            <translation type="unfinished">plusieurs électrodes et le générateur</translation>
+        </message>
+        <message>
+            <source>turning the patient puncture side down</source>
+            <translation type="unfinished">tourner le patient du côté de la ponction</translation>
+        </message>
+        <message>
+            <source>no step of an intervention: the way of the needle, or tool, alone</source>
+            <translation type="unfinished">aucune étape d'une intervention : seul le trajet de l'aiguille ou de l'outil</translation>
+        </message>
+        <message>
+            <source>the exercise does not have the patient turned</source>
+            <translation type="unfinished">dans l'exercice, le patient n'est pas tourné</translation>
         </message>
     </context>
 </TS>

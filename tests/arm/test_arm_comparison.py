@@ -21,6 +21,7 @@ POSTURES = [HELD.posture(d).q for d in DIRECTIONS]
 GRAVITY = np.array([0.0, 0.0, -9.80665])
 
 
+@pytest.mark.long("machine")
 def test_it_is_the_third_machine_and_asked_what_all_are():
     found = {m.name: machines.at_tilt(m, np.deg2rad(20.0)) for m in machines.machines()}
     assert list(found) == NAMES
@@ -138,6 +139,7 @@ def test_the_largest_sideways_force_brings_one_joint_to_its_torque_limit_and_non
         assert np.max(used, axis=0).argmax() == joint
 
 
+@pytest.mark.long("machine")
 def test_the_tip_repeats_as_the_flange_does_seen_through_the_jacobian():
     rng = np.random.default_rng(1)
     q = POSTURES[0]
@@ -153,6 +155,7 @@ def test_published_torques_and_repeatability_are_those_of_the_maker():
     assert ARM.repeatability == 0.15e-3
 
 
+@pytest.mark.long("machine")
 def test_a_base_that_stands_further_away_holds_with_less_room_until_it_does_not_hold():
     rows = arm_stands((0.9, 1.3)).rows
     scenes, far, out = rows

@@ -38,6 +38,7 @@ def test_a_vertical_axis_is_plus_ninety_degrees():
     assert whole(np.array([[2.0, 0.0], [2.0, 1.0], [2.0, 5.0]])).angle == np.pi / 2
 
 
+@pytest.mark.long("machine")
 def test_the_spread_of_centre_and_angle_is_that_of_outlines_drawn_anew():
     # Every piece of a bar's outline moves by itself: shares at its rim are drawn anew.
     rng, sd = np.random.default_rng(2), 0.2
@@ -60,6 +61,7 @@ def test_the_spread_of_centre_and_angle_is_that_of_outlines_drawn_anew():
     np.testing.assert_allclose(measured / scale, said.spread / scale, atol=0.08)
 
 
+@pytest.mark.long("machine")
 def test_a_tool_is_found_with_hull_centre_and_axis():
     for model, image in zip(models(), pictures(SCENE), strict=True):
         found = find_tool(image)
@@ -74,6 +76,7 @@ def test_a_tool_is_found_with_hull_centre_and_axis():
         assert np.abs(found.hull - tip).sum(axis=1).min() < 4.0
 
 
+@pytest.mark.long("machine")
 def test_shares_are_what_the_tool_covers_of_each_pixel_even_in_the_shade():
     renderer = renderers()[0]
     plain, (noisy, _) = renderer.render(SCENE), pictures(SCENE)

@@ -50,6 +50,7 @@ WAYS = pytest.mark.parametrize(
 )
 
 
+@pytest.mark.long("machine")
 @WAYS
 def test_the_covariance_is_that_of_motions_drawn_anew(way, drawn):
     rng = np.random.default_rng(4)
@@ -116,6 +117,7 @@ def test_one_camera_alone_finds_it_too():
     assert found.status is FulcrumStatus.DEGENERATE, "one camera gives a ray and no depth"
 
 
+@pytest.mark.long("machine")
 def test_the_fulcrum_is_found_in_pictures_to_half_a_millimetre_by_motion_and_by_the_trocar():
     poses = []
     for k, axis in enumerate(spiral(np.deg2rad(20.0), 6, 0.4)):
@@ -166,6 +168,7 @@ def test_the_derivatives_of_the_circles_distance_are_those_of_finite_differences
         np.testing.assert_allclose(slope, by[:, k], rtol=1e-4, atol=1e-3 * np.abs(by[:, k]).max())
 
 
+@pytest.mark.long("machine")
 def test_the_covariance_of_the_circle_is_that_of_outlines_drawn_anew():
     centre, rng = np.array([0.05, 0.02, 0.01]), np.random.default_rng(10)
     exact = ring_points(centre, [0.1, -0.3, 1.0])
@@ -178,6 +181,7 @@ def test_the_covariance_of_the_circle_is_that_of_outlines_drawn_anew():
     assert 0.7 < np.trace(np.cov(errors.T)) / np.trace(said) < 1.3
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("trocar", "status"),
     [

@@ -70,6 +70,7 @@ def test_the_derivatives_of_the_line_are_those_of_finite_differences():
         np.testing.assert_allclose(change, line.places_by[:, :, k], atol=1e-7)
 
 
+@pytest.mark.long("machine")
 def test_the_covariance_is_that_of_sights_drawn_anew():
     line = pose_module._intersection(*sights()[2])
     rng = np.random.default_rng(3)
@@ -86,6 +87,7 @@ def test_the_covariance_is_that_of_sights_drawn_anew():
     np.testing.assert_allclose(measured / scale, said / scale, atol=0.08)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_tool_is_found_to_a_millimetre_and_a_fifth_of_a_degree_with_its_tip(scene):
     found = eyes_of().tool(pictures(scene))
@@ -99,6 +101,7 @@ def test_the_tool_is_found_to_a_millimetre_and_a_fifth_of_a_degree_with_its_tip(
     assert off @ np.linalg.pinv(found.covariance, rcond=1e-9) @ off < 20.5  # 99.9 % of five
 
 
+@pytest.mark.long("machine")
 def test_a_plain_rod_has_a_line_and_no_telling_which_end_is_the_tip():
     scene = ToolScene(*LYING)
     found = eyes_of(ROD).tool(pictures(scene, tool=ROD))

@@ -67,6 +67,7 @@ def test_a_motion_is_kept_to_within_its_bound_also_between_the_places_looked_at(
     assert all(ARM.allows(one) for one in q)
 
 
+@pytest.mark.long("machine")
 def test_insertion_through_the_fulcrum_and_a_sweep_within_keep_the_shaft_in_it():
     d = PIVOT.inward_world
     line = PoseLine(PIVOT.pose(d, -0.05), PIVOT.pose(d, 0.1))
@@ -83,6 +84,7 @@ def test_insertion_through_the_fulcrum_and_a_sweep_within_keep_the_shaft_in_it()
     assert np.linalg.norm(np.subtract(tips, wanted), axis=1).max() <= swept.miss <= WITHIN
 
 
+@pytest.mark.long("machine")
 def test_finer_errors_are_met_with_more_knots():
     motion = MOTIONS["line"]
     fine = follow(ARM, motion, HAND, within=0.002 * MILLIMETRE)
@@ -136,6 +138,7 @@ def test_a_sweep_through_the_fulcrum_is_refused_as_undefined():
         follow(ARM, sweep, TOOL.T_tool_needle, pivot=PIVOT)
 
 
+@pytest.mark.long("machine")
 def test_a_sweep_through_several_places_is_one_smooth_way_and_is_kept():
     axis, depth, roll = PIVOT.inward_world, 0.1, 2.1
     tip = PIVOT.p_world + depth * axis

@@ -55,6 +55,7 @@ def joints_within(count: int, seed: int) -> np.ndarray:
 # Fingers
 
 
+@pytest.mark.long("machine")
 def test_the_inverse_brings_every_finger_back_to_its_point_on_the_branch_it_came_from():
     worst, over = 0.0, 0
     for q in joints_within(5_000, 1):
@@ -275,6 +276,7 @@ def test_without_a_pad_the_grasp_point_itself_touches():
         assert pose.coupling is Coupling.FREE
 
 
+@pytest.mark.long("machine")
 def test_what_touches_lies_on_the_tool_wherever_the_tool_stands():
     rng, found, links = np.random.default_rng(4), 0, set()
     for _ in range(300):
@@ -451,6 +453,7 @@ def test_without_friction_the_plane_needs_couples_of_both_signs():
     assert force_closure(Contacts(square, normals, 0.0)).closed, "two turn each way"
 
 
+@pytest.mark.long("machine")
 def test_a_cone_with_more_edges_closes_no_worse_and_the_inscribed_is_conservative():
     contacts = Contacts(THREE, -THREE, 0.5, 0.002)
     margins = [force_closure(contacts, edges).margin for edges in (4, 8, 16, 32)]
@@ -530,6 +533,7 @@ def test_the_lever_is_the_travel_of_the_grasp_point_and_the_torque_at_joint_2():
         Lever.of(HAND, POSTURE, (1.0, 0.0, 0.0))
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("stiffness", [1e2, 1e3, 1e4, 1e5, 1e6])
 @pytest.mark.parametrize("relaxation", [0.0, 1e-3, 0.05])
 @pytest.mark.parametrize("softer", [1.0, 0.1])

@@ -58,6 +58,7 @@ def at(direction, distance):
     return RigidTransform(np.eye(3), SHOULDER + distance * away)
 
 
+@pytest.mark.long("machine")
 @given(postures)
 def test_every_posture_within_limits_is_solved_however_aligned_it_is(q):
     there = forward(ARM, q)
@@ -83,6 +84,7 @@ def test_all_eight_decoupled_solutions_meet_the_pose_however_aligned_it_is(q):
         assert one.q[2] == 0.0
 
 
+@pytest.mark.long("machine")
 @given(postures)
 def test_a_posture_with_its_own_angles_kept_comes_back_to_what_is_defined(q):
     there = forward(ARM, q)
@@ -95,6 +97,7 @@ def test_a_posture_with_its_own_angles_kept_comes_back_to_what_is_defined(q):
         assert off < 1e-9
 
 
+@pytest.mark.long("machine")
 @given(st.integers(0, 17), st.floats(-np.pi, np.pi), st.floats(0.45, 0.8))
 def test_towards_the_first_axis_the_pose_is_met_at_every_distance(k, azimuth, rise):
     aside = 0.0 if k == 17 else 10.0 ** -(k + 1)
@@ -147,6 +150,7 @@ def test_with_joints_at_their_limits_the_pose_is_still_solved(q, at_limit):
     assert missed(found.q, there) < 1e-10
 
 
+@pytest.mark.long("machine")
 @given(st.floats(0.0, 0.1), st.floats(-0.8, -0.3), st.floats(0.2, 1.0))
 def test_a_pose_with_one_arm_angle_only_is_solved_there(first, fourth, sixth):
     """Joint 2 at its limit and the elbow at its highest: every other arm angle is beyond."""
@@ -161,6 +165,7 @@ def test_a_pose_with_one_arm_angle_only_is_solved_there(first, fourth, sixth):
         solve(ARM, forward(ARM, q + [0.0, 1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]))
 
 
+@pytest.mark.long("machine")
 @given(postures, postures)
 def test_solving_near_any_posture_is_solving(q, near):
     there = forward(ARM, q)
@@ -196,6 +201,7 @@ def test_a_turn_through_an_aligned_wrist_is_followed_without_a_jump():
     assert max(steps[1:]) < 0.02
 
 
+@pytest.mark.long("machine")
 @given(directions, st.floats(0.0, 5.0), postures)
 def test_whatever_is_asked_the_pose_offered_is_reached_within_limits(direction, distance, q):
     there = RigidTransform(forward(ARM, q).rotation, at(direction, distance).translation)

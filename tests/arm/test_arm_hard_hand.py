@@ -156,6 +156,7 @@ def test_hull_and_closed_form_agree_on_every_pair_however_slight_or_small(one, t
         assert hull.closed is pair_closed(contacts)
 
 
+@pytest.mark.long("machine")
 @RELAXED
 @given(numbers, st.floats(0.01, 2.0), st.floats(-1e-3, 1e-3))
 def test_the_margin_does_not_jump_where_a_grasp_opens(turn, mu, step):
@@ -163,6 +164,7 @@ def test_the_margin_does_not_jump_where_a_grasp_opens(turn, mu, step):
     assert abs(before - after) <= 3.0 * (1.0 + mu) * abs(step) + 1e-12
 
 
+@pytest.mark.long("machine")
 @RELAXED
 @given(
     st.lists(st.tuples(numbers, numbers, numbers), min_size=1, max_size=4),
@@ -212,6 +214,7 @@ def test_parallel_normals_never_close(points, mu):
 LEVER = Lever(free=8e-4, alone=3e-4, arm=0.09, breakaway=0.5)
 
 
+@pytest.mark.long("machine")
 @QUICK
 @given(
     st.floats(0.1, 20.0),

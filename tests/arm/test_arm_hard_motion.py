@@ -47,6 +47,7 @@ def test_the_state_of_any_posture_is_finite_and_its_depth_and_distance_make_the_
     assert np.hypot(state.depth, state.off) == pytest.approx(away, abs=1e-14)
 
 
+@pytest.mark.long("machine")
 @given(rng_seeds, st.integers(0, 12))
 @settings(max_examples=30, deadline=None)
 def test_the_bound_of_the_shaft_is_never_below_what_is_seen(seed, exponent):
@@ -57,6 +58,7 @@ def test_the_bound_of_the_shaft_is_never_below_what_is_seen(seed, exponent):
     assert seen <= PIVOT.off(path) * (1.0 + 1e-12) + 1e-15
 
 
+@pytest.mark.long("machine")
 @given(rng_seeds, st.integers(0, 9))
 @settings(max_examples=20, deadline=None)
 def test_a_line_is_followed_within_its_bound_or_refused_with_a_place_on_it(seed, exponent):
@@ -80,6 +82,7 @@ def test_a_line_is_followed_within_its_bound_or_refused_with_a_place_on_it(seed,
     assert made.margins.joint >= 0.0
 
 
+@pytest.mark.long("machine")
 @given(rng_seeds, st.integers(0, 10))
 @settings(max_examples=20, deadline=None)
 def test_no_limit_is_passed_however_small_or_sharp_the_path(seed, exponent):

@@ -30,6 +30,7 @@ EYES = ToolEyes(models=models(), outline=OUTLINE)
 TOWARDS = st.tuples(*[st.floats(-1.0, 1.0)] * 3).filter(lambda v: np.linalg.norm(v) > 0.1)
 
 
+@pytest.mark.long("machine")
 @MANY
 @given(st.floats(1.0, 1.3), st.floats(-1.57, 1.57))
 def test_a_blob_has_an_axis_that_is_right_or_none(ratio, angle):
@@ -43,6 +44,7 @@ def test_a_blob_has_an_axis_that_is_right_or_none(ratio, angle):
     assert np.isfinite(found.spread).all()
 
 
+@pytest.mark.long("machine")
 @MANY
 @given(st.lists(st.tuples(st.integers(-500, 500), st.integers(-500, 500)), min_size=1, max_size=12))
 def test_any_pixels_have_finite_moments(pixels):
@@ -77,6 +79,7 @@ def test_wherever_the_tool_is_the_answer_is_near_it_or_has_a_name(place, towards
         assert np.linalg.norm(found.p_world - true) < max(5e-3, 8.0 * sd)
 
 
+@pytest.mark.long("machine")
 @FEW
 @given(st.floats(0.03, 0.17), st.floats(1.0, 6.0), st.floats(100.0, 900.0), st.integers(0, 1))
 def test_a_lamp_reflected_on_the_tool_moves_it_little_or_has_a_name(behind, sd_px, strength, which):
@@ -90,6 +93,7 @@ def test_a_lamp_reflected_on_the_tool_moves_it_little_or_has_a_name(behind, sd_p
     assert abs(after.moments.angle - before.moments.angle) < np.deg2rad(1.0)
 
 
+@pytest.mark.long("machine")
 @FEW
 @given(st.floats(-0.25, 0.25), st.floats(0.0, 3.1))
 def test_two_tools_are_never_taken_for_one(aside, turn):
@@ -103,6 +107,7 @@ def test_two_tools_are_never_taken_for_one(aside, turn):
         assert not apart, "only what lies in one line, or hides the other, may pass for one"
 
 
+@pytest.mark.long("machine")
 @MANY
 @given(st.floats(0.0, 0.3), st.integers(2, 9), st.floats(0.0, 1e-3), st.integers(0, 1000))
 def test_lines_give_a_point_that_is_as_near_as_it_says_or_none(lean, count, turn_sd, seed):
@@ -132,6 +137,7 @@ def test_lines_give_a_point_that_is_as_near_as_it_says_or_none(lean, count, turn
             assert not found.covariance.any()
 
 
+@pytest.mark.long("machine")
 @MANY
 @given(st.lists(st.tuples(*[st.floats(-10.0, 10.0)] * 3), min_size=0, max_size=6), TOWARDS)
 def test_parallel_lines_are_degenerate_wherever_they_lie(places, towards):

@@ -186,6 +186,7 @@ def test_solving_near_a_posture_gives_it_back_and_twice_the_same():
         assert (solve(ARM, there).q == solve(ARM, there).q).all()
 
 
+@pytest.mark.long("machine")
 def test_feasible_arm_angles_are_those_of_a_fine_scan():
     line = np.linspace(-np.pi, np.pi, 721)
     for q in postures(6):

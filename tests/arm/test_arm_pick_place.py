@@ -39,6 +39,7 @@ def done():
     return pick_and_place(PIVOT, TASK, START, POST, lambda tool: POST)
 
 
+@pytest.mark.long("machine")
 def test_the_shaft_turns_about_the_fulcrum_outside_before_it_goes_in(done):
     pivot = next(phase for phase in done.phases if phase.name is PhaseName.PIVOT)
     times = np.linspace(pivot.begin, pivot.end, 200)
@@ -53,6 +54,7 @@ def test_the_shaft_turns_about_the_fulcrum_outside_before_it_goes_in(done):
         assert sum(parts) == pytest.approx(whole, abs=2e-3)
 
 
+@pytest.mark.long("machine")
 def test_along_the_trocars_axis_there_is_nothing_to_turn():
     straight = replace(TASK, axis_world=None)
     planned = pick_and_place(PIVOT, straight, START, POST, lambda tool: POST)
@@ -88,6 +90,7 @@ def test_with_the_tool_in_the_hand_it_is_as_careful_as_asked(done):
             assert jerk <= share * (1.0 + 1e-9)
 
 
+@pytest.mark.long("machine")
 def test_whether_it_can_be_is_told_without_a_search(monkeypatch):
     def searched(*_, **__):
         raise AssertionError("a way was searched")
@@ -125,6 +128,7 @@ def test_a_search_that_ends_without_a_way_is_an_obstacle_of_its_own(monkeypatch)
     assert caught.value.why == "no way in 7 tests"
 
 
+@pytest.mark.long("machine")
 def test_all_phases_follow_each_other_without_a_jump_within_the_limits(done):
     assert [phase.name for phase in done.phases] == list(PhaseName)
     for before, after in zip(done.phases[:-1], done.phases[1:], strict=True):
@@ -138,11 +142,13 @@ def test_all_phases_follow_each_other_without_a_jump_within_the_limits(done):
             assert motion.use_of_limits(ARM).max() <= 1.0 + 1e-9
 
 
+@pytest.mark.long("machine")
 def test_nothing_is_touched_on_the_way(done):
     times = np.linspace(0.0, done.duration, 1000)
     assert min(POST.distance(done.at(float(t))) for t in times) > 0.0
 
 
+@pytest.mark.long("machine")
 def test_the_hand_grips_the_tool_where_it_lies_and_carries_it_to_its_depth(done):
     grasp = next(phase for phase in done.phases if phase.name is PhaseName.GRASP)
     q = done.at(grasp.end - 0.5 * grasp.rest)
@@ -156,6 +162,7 @@ def test_the_hand_grips_the_tool_where_it_lies_and_carries_it_to_its_depth(done)
     assert end.off < 1e-9
 
 
+@pytest.mark.long("machine")
 def test_the_shaft_stays_in_the_fulcrum_while_it_goes_in_and_the_tool_is_held_from_the_lift(
     done,
 ):

@@ -109,6 +109,7 @@ def test_masses_are_the_published_ones():
     assert model.body("tool").mass[0] == pytest.approx(SCENE.tool.mass)
 
 
+@pytest.mark.long("machine")
 def test_a_seed_gives_the_same_scene_and_the_tool_lies_still_on_both_rails():
     assert ArmScene.seeded(5).T_world_tool.matrix() == pytest.approx(
         ArmScene.seeded(5).T_world_tool.matrix(), abs=0.0

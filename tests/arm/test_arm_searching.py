@@ -42,6 +42,7 @@ def test_a_way_around_a_post_is_free_all_along_and_shorter_than_it_was_found(pla
     assert found.length < found.first_length
 
 
+@pytest.mark.long("machine")
 def test_the_same_seed_finds_the_same_way_and_another_seed_another():
     def found(seed):
         return search(ARM, POST, START, GOAL, budget=Budget(60.0, 20_000, seed))

@@ -17,6 +17,7 @@ def test_a_spiral_covers_its_cone_and_its_beginning_does_too():
     assert np.linalg.norm(axes[:12, :2].mean(axis=0)) < 0.06
 
 
+@pytest.mark.long("machine")
 def test_both_ways_by_motion_find_the_fulcrum_in_pictures():
     stand = Stand()
     moved = motion(stand, 15.0 * DEGREE, 4, seed=3)
@@ -27,6 +28,7 @@ def test_both_ways_by_motion_find_the_fulcrum_in_pictures():
         assert np.linalg.norm(found.p_world - stand.trocar.p_world) < 0.5e-3
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("inserted", [False, True])
 def test_tools_are_found_within_the_goal(inserted):
     found = poses(8, inserted, seed=5)

@@ -32,6 +32,7 @@ def test_directions_and_single_programmes_never_say_less_than_there_is():
     assert programme_margin(rays) == pytest.approx(margin, rel=1e-6)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("number", range(5))
 def test_every_setting_is_a_grasp_that_closes(number):
     setting = find_study("grasp").settings[number]

@@ -34,6 +34,7 @@ def records(folder, number):
     return folder
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "address",
     ["tcp://10.1.2.3:8786", "10.1.2.3:8786", "tcp://nowhere.invalid:8786", "tcp://[2001:db8::1]:1"],
@@ -58,6 +59,7 @@ def test_the_loopback_is_taken_as_it_is(address):
     check_address(address)
 
 
+@pytest.mark.long("journey")
 def test_a_scheduler_that_is_not_there_is_one_line_with_what_to_do(tmp_path):
     place = records(tmp_path / "records", 1)
     words = "cohort", "rescore", "--folder", place, "--out", "a.parquet", "--scheduler"
@@ -78,6 +80,7 @@ main()
 """
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(("missing", "local"), [("distributed", 2), ("pyarrow", 1)])
 def test_a_missing_package_is_one_line_that_names_the_extra(tmp_path, missing, local):
     place = records(tmp_path / "records", 1)
@@ -90,6 +93,7 @@ def test_a_missing_package_is_one_line_that_names_the_extra(tmp_path, missing, l
     assert "cohort" in done.stderr.split("extra")[1]
 
 
+@pytest.mark.long("journey")
 def test_one_process_needs_no_dask(tmp_path):
     place = records(tmp_path / "records", 1)
     words = "cohort", "rescore", "--folder", place, "--out", tmp_path / "a.parquet"

@@ -33,6 +33,7 @@ def own_exercise(record):
     return Exercise.model_validate_json(open_recording(record).attachments[EXERCISE_FILE])
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_under_its_own_exercise_scores_as_its_written_values_judged_again(
     folder, tmp_path
 ):
@@ -79,6 +80,7 @@ def test_another_pass_mark_and_wider_bands_change_who_passes_and_no_record(folde
     assert {file.name: file.read_bytes() for file in folder.glob("*.mcap")} == before
 
 
+@pytest.mark.long("journey")
 def test_every_attempt_has_a_row_and_what_cannot_be_scored_says_why(folder, tmp_path):
     (folder / "20990101-000000-cut.mcap").write_bytes(RECORDS[0].read_bytes()[:3000])
     (folder / "20990101-000001-none.mcap").write_bytes(b"no record at all")
@@ -92,6 +94,7 @@ def test_every_attempt_has_a_row_and_what_cannot_be_scored_says_why(folder, tmp_
     assert all(row["not_scored"] for row in broken)
 
 
+@pytest.mark.long("journey")
 def test_the_table_is_the_same_to_the_bit_however_it_is_cut_up_and_gone_on_with(
     folder, tmp_path, monkeypatch
 ):

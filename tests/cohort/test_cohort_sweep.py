@@ -40,6 +40,7 @@ def grid(file, **axes):
     return SweepGrid.given(exercise=str(file), **{"skills": ("expert",), "seeds": 1, **axes})
 
 
+@pytest.mark.long("journey")
 def test_a_sweep_scores_each_seed_as_a_trial_of_the_exercise_does(exercise_file, tmp_path):
     out = tmp_path / "a.parquet"
     done = sweep(grid(exercise_file, skills=("novice", "expert"), seeds=2), out, crew_of())
@@ -55,6 +56,7 @@ def test_a_sweep_scores_each_seed_as_a_trial_of_the_exercise_does(exercise_file,
     assert done.cost.attempt > 0.0
 
 
+@pytest.mark.long("journey")
 def test_a_sweep_goes_on_with_the_parts_that_are_missing_and_ends_with_the_same_bytes(
     exercise_file, tmp_path
 ):
@@ -73,6 +75,7 @@ def test_a_sweep_goes_on_with_the_parts_that_are_missing_and_ends_with_the_same_
     assert out.read_bytes() == whole
 
 
+@pytest.mark.long("journey")
 def test_more_seeds_and_values_leave_the_parts_that_are_there(exercise_file, tmp_path):
     out = tmp_path / "a.parquet"
     first = grid(exercise_file, seeds=(3,))
@@ -84,6 +87,7 @@ def test_more_seeds_and_values_leave_the_parts_that_are_there(exercise_file, tmp
     assert [row["assistance"] for row in rows(out)] == [0.0, 0.7]
 
 
+@pytest.mark.long("journey")
 def test_a_registration_error_moves_the_target_by_its_length_and_costs_the_score(
     exercise_file, tmp_path
 ):
@@ -101,6 +105,7 @@ def test_a_registration_error_moves_the_target_by_its_length_and_costs_the_score
     assert (right["passed"], wrong["passed"]) == (True, False)
 
 
+@pytest.mark.long("journey")
 def test_noise_of_the_cameras_grows_what_a_depth_is_uncertain_by_in_proportion(
     exercise_file, tmp_path
 ):

@@ -70,6 +70,7 @@ def test_stereo_says_what_json_docs_list_and_writes_its_file(folder: Path, tmp_p
     assert load_calibration(file).id == document["id"]
 
 
+@pytest.mark.long("journey")
 def test_a_calibration_that_is_contradicted_ends_with_3_and_is_kept_only_by_force(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -88,6 +89,7 @@ def test_a_calibration_that_is_contradicted_ends_with_3_and_is_kept_only_by_forc
     assert file.exists()
 
 
+@pytest.mark.long("journey")
 def test_stray_files_are_named_and_pictures_of_one_camera_help_its_lens(
     folder: Path, tmp_path: Path
 ) -> None:
@@ -112,6 +114,7 @@ def test_stray_files_are_named_and_pictures_of_one_camera_help_its_lens(
     assert {one["name"] for one in found["pictures"]} > {"left06.png", "right07.png"}
 
 
+@pytest.mark.long("journey")
 def test_mono_calibrates_each_camera_that_the_names_speak_of(folder: Path) -> None:
     text = run("mono", "--images", str(folder), *BOARD, "--hold-back", "0")
     assert "left" in text
@@ -119,6 +122,7 @@ def test_mono_calibrates_each_camera_that_the_names_speak_of(folder: Path) -> No
     assert text.count("k3") == 2
 
 
+@pytest.mark.long("journey")
 def test_the_lens_of_one_camera_is_written_alone(folder: Path, tmp_path: Path):
     lefts, lens = tmp_path / "left", tmp_path / "lens.yaml"
     lefts.mkdir()
@@ -132,12 +136,14 @@ def test_the_lens_of_one_camera_is_written_alone(folder: Path, tmp_path: Path):
         run("mono", "--images", str(folder), *BOARD, "--out", str(tmp_path / "two.yaml"))
 
 
+@pytest.mark.long("journey")
 def test_views_says_of_every_picture_what_it_is_good_for(folder: Path) -> None:
     document = json.loads(run("views", "--images", str(folder), *BOARD, "--json"))["facts"]
     assert len(document["views"]) == 14
     assert all(view["used"] for view in document["views"])
 
 
+@pytest.mark.long("journey")
 def test_too_few_pairs_are_refused_whatever_has_no_partner(folder: Path, tmp_path: Path) -> None:
     for path in folder.glob("*0[1-3].png"):
         (tmp_path / path.name).write_bytes(path.read_bytes())

@@ -36,6 +36,7 @@ def kept() -> CalibrationHistory:
     return history
 
 
+@pytest.mark.long("journey")
 def test_the_list_says_which_is_in_use_and_which_was_found_bad(acus, kept) -> None:
     assert acus("list") == (0, acus("list")[1])
     assert "* cal-two" in acus("list")[1]

@@ -73,6 +73,7 @@ def test_the_cameras_places_are_found_and_kept(acus, history, pictures: Path) ->
     }  # fmt: skip
 
 
+@pytest.mark.long("journey")
 def test_what_is_wrong_is_named(acus, history, pictures: Path) -> None:
     folder = str(pictures)
     for arguments, said in (

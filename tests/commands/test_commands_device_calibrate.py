@@ -74,6 +74,7 @@ def test_a_port_that_is_not_there_is_told(tmp_path):
     assert isinstance(result.exception, LinkError)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("command", ["show", "test", "conform", "calibrate"])
 def test_a_port_that_is_not_there_is_told_before_anything_is_compiled(command):
     """Compiled code of a new installation takes minutes: numba is not even imported."""

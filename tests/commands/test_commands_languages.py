@@ -63,6 +63,7 @@ def test_an_error_from_below_is_in_the_reader_s_language_with_its_values(answere
     assert told == "acus: Valeur non valable : --out a.txt : seul .csv peut être écrit\n"
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("words", [("people", "list"), ("exercise", "list"), ("session", "list")])
 def test_json_is_the_same_in_every_language(answered, words):
     told = [answered(at, *words, "--json") for at in ("C.UTF-8", "de_DE.UTF-8", "fr_FR.UTF-8")]
@@ -70,6 +71,7 @@ def test_json_is_the_same_in_every_language(answered, words):
     assert json.loads(told[0][0])["command"] == " ".join(words)
 
 
+@pytest.mark.long("journey")
 def test_help_is_english_and_reads_no_language():
     code = (
         "import sys; sys.argv = ['acus', 'people', '--help']\n"

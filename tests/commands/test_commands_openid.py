@@ -40,6 +40,7 @@ def issuer():
         yield issuer
 
 
+@pytest.mark.long("journey")
 def test_a_provider_is_asked_before_it_is_kept_and_forgotten_with_its_links(acus, issuer):
     assert acus()["issuer"] is None
     words = ("--issuer", issuer.issuer, "--client", "acus", "--instructor", "a", "--instructor")
@@ -58,6 +59,7 @@ def test_a_provider_is_asked_before_it_is_kept_and_forgotten_with_its_links(acus
     ]  # fmt: skip
 
 
+@pytest.mark.long("journey")
 def test_what_answers_but_is_no_provider_is_not_kept(acus, issuer):
     issuer.document = {"issuer": f"{issuer.issuer}/"}
     err = acus("--issuer", issuer.issuer, "--client", "acus", code=2)

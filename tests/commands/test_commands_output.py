@@ -71,6 +71,7 @@ def test_nobody_prints_past_the_door():
     assert past == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "words",
     [("exercise", "validate", EVIL), ("session", "show", EVIL), ("study", EVIL), (EVIL,),

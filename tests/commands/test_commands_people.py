@@ -149,6 +149,7 @@ def test_the_instructor_deletes_restores_remarks_and_erases(acus, monkeypatch, t
     assert (done["records"], done["erased"], done["people"]) == (0, 2, "kept")
 
 
+@pytest.mark.long("journey")
 def test_a_backup_with_a_key_that_an_earlier_build_wrapped_says_so(acus, monkeypatch, tmp_path):
     people = People()
     people.set_instructor("correct horse")
@@ -165,6 +166,7 @@ def test_a_backup_with_a_key_that_an_earlier_build_wrapped_says_so(acus, monkeyp
     assert "`acus people instructor`" in said
 
 
+@pytest.mark.long("journey")
 def test_an_altered_record_is_told_by_verify_and_in_the_list(acus):
     attempts("s")
     path = next(sessions().glob("*.mcap"))
@@ -175,6 +177,7 @@ def test_an_altered_record_is_told_by_verify_and_in_the_list(acus):
     assert acus("session", "list")["sessions"][0]["signature"] == "altered"
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("harm", ["cut", "altered"])
 def test_a_record_that_was_harmed_is_listed_and_shown_without_points(
     acus, monkeypatch, capsys, harm
@@ -203,6 +206,7 @@ def test_a_record_that_was_harmed_is_listed_and_shown_without_points(
         assert out.count("altered after it was signed") == 1
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_that_was_cut_off_is_listed_and_closed(acus):
     attempts("s")
     path = next(sessions().glob("*.mcap"))
@@ -319,6 +323,7 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         assert commands_of(noun) - OPEN_TO_ALL <= closed, noun
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/people.md: it shows records by key, without pseudonyms and names, verifies none, "
     "and counts none as a student's"
@@ -337,6 +342,7 @@ def test_another_data_folder_opens_records_by_key_without_names_and_verifies_non
     assert "Ada" not in json.dumps(acus("people", "list"))
 
 
+@pytest.mark.long("journey")
 def test_a_course_without_versions_pins_the_newest_ones(acus, tmp_path):
     course = tmp_path / "c.yaml"
     course.write_text(
@@ -353,6 +359,7 @@ def test_a_course_without_versions_pins_the_newest_ones(acus, tmp_path):
     assert [item.version for item in find_course("c").items] == [newest, 1]
 
 
+@pytest.mark.long("journey")
 def test_an_id_that_fits_none_or_several_names_none_to_who_may_not_see_them(acus):
     key = acus("people", "add", "Ada", "--pin", "1843")["key"]
     attempts(key, key)
@@ -403,6 +410,7 @@ def test_a_signed_record_that_was_harmed_is_not_said_to_be_whole(acus, harm):
     assert path.read_bytes() == harmed
 
 
+@pytest.mark.long("journey")
 def test_an_intact_record_is_said_to_need_no_recovery(acus, monkeypatch, capsys):
     attempts("Ada")
     (path,) = sessions().glob("*.mcap")
@@ -414,6 +422,7 @@ def test_an_intact_record_is_said_to_need_no_recovery(acus, monkeypatch, capsys)
     assert path.read_bytes() == before
 
 
+@pytest.mark.long("journey")
 def test_a_data_folder_that_can_only_be_read_shows_people_and_board_to_the_instructor(
     acus, monkeypatch, capsys
 ):
@@ -433,6 +442,7 @@ def test_a_data_folder_that_can_only_be_read_shows_people_and_board_to_the_instr
         assert "wrong tries are not kept" in said
 
 
+@pytest.mark.long("journey")
 def test_a_course_begins_by_a_plan_on_a_day(acus):
     (plan,) = acus("course", "plans")["plans"]
     assert len(plan["units"]) == 6

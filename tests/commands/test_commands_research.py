@@ -47,6 +47,7 @@ def refused(acus, *words):
     return said
 
 
+@pytest.mark.long("journey")
 def test_the_example_design_can_begin(acus, tmp_path):
     path = tmp_path / "design.yaml"
     acus("research", "new", "--out", path)
@@ -56,6 +57,7 @@ def test_the_example_design_can_begin(acus, tmp_path):
     assert "is there already" in refused(acus, "research", "new", "--out", path)
 
 
+@pytest.mark.long("journey")
 def test_each_arm_gets_its_exercise_and_a_course_that_tells_no_arm(begun):
     for number, assistance in (("1", 0.7), ("2", 0.0)):
         course = find_course(f"{NAME}-{number}")
@@ -64,6 +66,7 @@ def test_each_arm_gets_its_exercise_and_a_course_that_tells_no_arm(begun):
         assert "guided" not in course.title + course.id
 
 
+@pytest.mark.long("journey")
 def test_the_exercise_of_an_arm_stays_what_it_was_when_the_study_began(begun):
     study = find_study(NAME)
     before = study.exercise("guided")
@@ -73,6 +76,7 @@ def test_the_exercise_of_an_arm_stays_what_it_was_when_the_study_began(begun):
     assert find_study(NAME).exercise("guided").assistance == before.assistance == 0.7
 
 
+@pytest.mark.long("journey")
 def test_an_enrolled_student_takes_the_course_of_the_arm_and_no_other(acus, begun):
     one = acus("research", "enrol", NAME, "Ada", *CONSENT)
     assert People().find("Ada").groups == (one["course"],)
@@ -82,6 +86,7 @@ def test_an_enrolled_student_takes_the_course_of_the_arm_and_no_other(acus, begu
     assert "enrolled already" in refused(acus, "research", "enrol", NAME, "ada", *CONSENT)
 
 
+@pytest.mark.long("journey")
 def test_a_ledger_holds_no_pseudonym_name_or_key(acus, begun):
     acus("research", "enrol", NAME, "Ada", *CONSENT)
     key = People().find("Ada").key
@@ -91,6 +96,7 @@ def test_a_ledger_holds_no_pseudonym_name_or_key(acus, begun):
         assert secret.encode() not in data
 
 
+@pytest.mark.long("journey")
 def test_arms_are_hidden_until_the_data_are_locked(acus, begun):
     acus("research", "enrol", NAME, "Ada", *CONSENT)
     (before,) = acus("research", "status")["studies"]
@@ -102,6 +108,7 @@ def test_arms_are_hidden_until_the_data_are_locked(acus, begun):
     assert "were locked" in refused(acus, "research", "lock", NAME, "--by", "CD")
 
 
+@pytest.mark.long("journey")
 def test_the_next_visit_of_each_student_is_shown_with_its_window(acus, begun):
     acus("research", "enrol", NAME, "Ada", *CONSENT)
     (visit,) = acus("research", "status", NAME)["studies"][0]["due"]
@@ -124,23 +131,27 @@ WRONG = {
 }
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("reason", WRONG)
 def test_who_cannot_be_enrolled_is_told_why_in_one_line(acus, begun, reason):
     assert reason in refused(acus, "research", "enrol", NAME, *WRONG[reason])
     assert acus("research", "status", NAME)["studies"][0]["enrolled"] == 0
 
 
+@pytest.mark.long("journey")
 def test_a_study_begins_once(acus, begun):
     assert "has begun already" in refused(acus, "research", "begin", begun)
     assert "there: assistance-study" in refused(acus, "research", "status", "other")
 
 
+@pytest.mark.long("journey")
 def test_a_design_that_was_changed_later_is_refused(acus, begun):
     path = paths.data() / "research" / NAME / "design.yaml"
     path.write_text(path.read_text().replace("participants: 60", "participants: 90"))
     assert "was changed after" in refused(acus, "research", "enrol", NAME, "Ada", *CONSENT)
 
 
+@pytest.mark.long("journey")
 def test_students_enrolled_at_once_get_places_of_their_own(begun):
     people = People()
     names = [f"S{k}" for k in range(12)]
@@ -158,6 +169,7 @@ def test_students_enrolled_at_once_get_places_of_their_own(begun):
     assert abs(arms.count("guided") - 6) <= 3
 
 
+@pytest.mark.long("journey")
 def test_an_entry_of_the_ledger_that_was_changed_is_noticed(acus, begun):
     import sqlite3
 
@@ -167,6 +179,7 @@ def test_an_entry_of_the_ledger_that_was_changed_is_noticed(acus, begun):
     assert "not as it was written" in refused(acus, "research", "status", NAME)
 
 
+@pytest.mark.long("journey")
 def test_enrolment_ends_with_the_participants_of_the_design_and_on_its_last_day(begun):
     from dataclasses import replace
 
@@ -190,6 +203,7 @@ def test_enrolment_ends_with_the_participants_of_the_design_and_on_its_last_day(
         few.enrol(people.find("Eve"), {"experience": "none"}, "AB", people)
 
 
+@pytest.mark.long("journey")
 def test_a_study_is_bundled_and_verified(acus, begun, tmp_path):
     names = [f"S-{k}" for k in range(6)]  # a block of six at the most has both arms
     People().take_roster([RosterLine(name, pin="1843") for name in names])
@@ -219,6 +233,7 @@ def test_power_is_for_so_many_students_or_says_how_many_are_needed(acus):
 SUS = {f"q{k}": x for k, x in enumerate((5, 4, 2, 1, 2, 3, 2, 4, 5, 2), 1)}
 
 
+@pytest.mark.long("journey")
 def test_answers_are_entered_by_options_or_from_a_table_all_or_none(acus, begun, tmp_path):
     for name in ("Ada", "Bob"):
         acus("research", "enrol", NAME, name, *CONSENT)
@@ -240,6 +255,7 @@ def test_answers_are_entered_by_options_or_from_a_table_all_or_none(acus, begun,
     assert "give --from FILE" in refused(acus, *words)
 
 
+@pytest.mark.long("journey")
 def test_a_study_comes_back_from_a_backup_with_the_stations_key(acus, begun, monkeypatch, tmp_path):
     recovery = People().set_instructor("correct horse")
     monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")

@@ -69,6 +69,7 @@ def group(acus, tmp_path):
             record(f"{name}-{number}", People().find(name).key, total, number)
 
 
+@pytest.mark.long("journey")
 def test_a_gradebook_by_address_and_mean_says_how_sure_it_is(acus, group, tmp_path):
     out = tmp_path / "grades.csv"
     words = ("results", "export", "moodle", "--out", out, "--course", "autumn")
@@ -83,6 +84,7 @@ def test_a_gradebook_by_address_and_mean_says_how_sure_it_is(acus, group, tmp_pa
     assert "10 pairs of attempts" in best["chance"]
 
 
+@pytest.mark.long("journey")
 def test_what_moodle_could_not_tell_apart_is_refused_and_nothing_is_written(acus, group, tmp_path):
     out = tmp_path / "grades.csv"
     words = ("results", "export", "moodle", "--out", out)
@@ -100,6 +102,7 @@ def test_what_moodle_could_not_tell_apart_is_refused_and_nothing_is_written(acus
     assert not out.exists()
 
 
+@pytest.mark.long("journey")
 def test_statements_are_written_twice_alike_and_queued_once(acus, group, tmp_path):
     words = ("results", "xapi", "--home", HOME, "--course", "autumn")
     done = acus(*words, "--out", tmp_path / "a.json", "--queue")
@@ -119,6 +122,7 @@ def test_statements_are_written_twice_alike_and_queued_once(acus, group, tmp_pat
     assert "nothing to do" in acus(*words, code=2)
 
 
+@pytest.mark.long("journey")
 def test_statements_reach_a_record_store_whose_password_is_shown_nowhere(
     acus, group, capsys, monkeypatch
 ):
@@ -149,6 +153,7 @@ def test_statements_reach_a_record_store_whose_password_is_shown_nowhere(
     assert not (people_folder() / "lrs.json").exists()
 
 
+@pytest.mark.long("journey")
 def test_a_report_takes_a_rule_and_a_place(acus, group, tmp_path):
     words = ("results", "export", "pdf", "--out", tmp_path / "r.pdf", "--course", "autumn")
     done = acus(*words, "--grade", "last", "--place", "Basel", "--names")

@@ -92,6 +92,7 @@ def test_what_cannot_be_is_said_in_one_line(acus, tmp_path, monkeypatch):
     assert not out.exists()
 
 
+@pytest.mark.long("journey")
 def test_only_objects_of_attempts_are_sent(monkeypatch, capsys, tmp_path):
     def send(*words):
         monkeypatch.setattr("sys.argv", ["acus", "pacs", "send", *map(str, words)])

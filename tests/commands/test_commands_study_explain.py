@@ -39,6 +39,7 @@ def test_an_unknown_study_or_exercise_is_refused_with_the_known_names() -> None:
             RUN.invoke(build(), arguments, catch_exceptions=False)
 
 
+@pytest.mark.long("journey")
 def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
     done = RUN.invoke(build(), ["explain", "first-insertion", "--json"])
     assert done.exit_code == 0
@@ -60,12 +61,14 @@ def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
     assert 0.0 < law["cost_ns"] < 1e6
 
 
+@pytest.mark.long("journey")
 def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:
     done = RUN.invoke(build(), ["explain", "first-insertion", "--real"])
     assert done.exit_code == 0
     assert "shaft_friction\n    dropped: it gives the force along the needle" in done.stdout
 
 
+@pytest.mark.long("journey")
 def test_what_is_absent_is_suggested_with_its_cost_and_refused_where_it_has_no_reason(
     tmp_path: Path,
 ) -> None:
@@ -124,6 +127,7 @@ def test_no_figure_of_a_table_is_cut_where_no_terminal_limits_it() -> None:
     assert "…" not in done.stdout
 
 
+@pytest.mark.long("journey")
 def test_explain_says_what_is_touched_and_how_the_hand_moves_the_tip():
     from app.commands.explain import _lines
     from app.compose.explaining import explanation

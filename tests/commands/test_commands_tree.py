@@ -153,6 +153,7 @@ def test_every_command_is_tried_here_or_by_tests_of_its_own():
     assert tried == set(EXAMPLES) | NEEDS_MORE
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_json_is_one_object_of_the_root_form(name, monkeypatch, capsys, tmp_path):
     monkeypatch.chdir(tmp_path)

@@ -35,6 +35,7 @@ def test_modules_in_a_circle_are_refused() -> None:
         compile_kernels.compile_all({"a": {"b"}, "b": {"a"}}, threads)
 
 
+@pytest.mark.long("journey")
 def test_the_kernels_of_the_program_are_found_with_what_they_are_compiled_from() -> None:
     modules = compile_kernels.kernel_modules()
     assert "app.device.control.kernel" in modules["app.device.control.realtime"]

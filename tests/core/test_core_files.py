@@ -28,6 +28,7 @@ def test_a_good_file_is_read(tmp_path):
     assert load(written(tmp_path, "rate_hz: 1000\n"), Probe) == Probe(rate_hz=1000)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("text", "parts"),
     [

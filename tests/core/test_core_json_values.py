@@ -4,6 +4,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -34,6 +35,7 @@ DOCUMENTS = st.recursive(
 )
 
 
+@pytest.mark.long("journey")
 @given(document=DOCUMENTS)
 def test_a_document_written_as_it_is_reads_as_one_that_was_copied_first(document):
     copied = json.dumps(finite(document), separators=(",", ":"), allow_nan=False)

@@ -82,6 +82,7 @@ def test_copies_are_sentences(way):
     assert again.values["reason"].values == {"line": 3}
 
 
+@pytest.mark.long("journey")
 def test_an_error_keeps_its_template_across_processes():
     with (
         multiprocessing.get_context("spawn").Pool(1) as pool,

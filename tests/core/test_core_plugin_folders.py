@@ -127,6 +127,7 @@ def test_an_exercise_of_a_folder_is_in_the_library(foreign):
     assert library().files["claw"] == path
 
 
+@pytest.mark.long("journey")
 def test_a_feature_of_a_folder_stands_behind_the_one_that_it_names(foreign):
     from app.views.shell import feature_plugins
     from app.views.shell.features import FEATURES
@@ -170,6 +171,7 @@ ENDS = {
 }
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", ENDS)
 def test_a_command_of_a_folder_that_ends_the_program_is_refused_and_adds_nothing(foreign, name):
     from typer.testing import CliRunner
@@ -188,6 +190,7 @@ def test_a_command_of_a_folder_that_ends_the_program_is_refused_and_adds_nothing
     assert CliRunner().invoke(root, ["--help"]).exit_code == 0
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("error", ["SystemExit", "KeyboardInterrupt", "GeneratorExit"])
 def test_a_file_whose_import_ends_the_program_is_refused(foreign, error):
     from app.commands import build
@@ -295,6 +298,7 @@ print(outer(1.0))
 """
 
 
+@pytest.mark.long("journey")
 def test_an_edit_in_a_machine_of_the_users_own_is_never_run_from_a_stale_build(tmp_path):
     folder = tmp_path / "mechanisms" / "claw"
     environment = os.environ | {

@@ -7,6 +7,7 @@ import pytest
 from app.core.progress import Cancelled, Progress, elapsed_share, moving
 
 
+@pytest.mark.long("journey")
 def test_the_bar_moves_on_and_says_the_seconds_while_the_work_stands_still():
     told = []
     progress = Progress(lambda fraction, text: told.append((fraction, text)))

@@ -199,6 +199,7 @@ ENDS = {
 }
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", ENDS)
 def test_whatever_a_file_does_costs_its_own_process_alone(trial, tmp_path, name):
     body, reason = ENDS[name]
@@ -208,6 +209,7 @@ def test_whatever_a_file_does_costs_its_own_process_alone(trial, tmp_path, name)
     assert trial.fault(path).startswith(f"{path}: ")
 
 
+@pytest.mark.long("journey")
 def test_a_verdict_is_remembered_until_the_file_or_one_that_it_imports_changes(trial, tmp_path):
     path, other = tmp_path / "plugin.py", tmp_path / "beside.py"
     other.write_text("ANSWER = ''\n")
@@ -225,6 +227,7 @@ def test_a_verdict_is_remembered_until_the_file_or_one_that_it_imports_changes(t
     assert trial.fault(path) == "refused now"
 
 
+@pytest.mark.long("journey")
 def test_the_verdict_of_a_trial_that_did_not_say_what_it_imported_is_in_memory_alone(
     trial, tmp_path
 ):
@@ -241,6 +244,7 @@ def test_the_verdict_of_a_trial_that_did_not_say_what_it_imported_is_in_memory_a
     assert len(list((tmp_path / "cache").rglob("verdicts/*.json"))) == 1
 
 
+@pytest.mark.long("journey")
 def test_a_refusal_is_known_whatever_the_argument_was_until_the_file_changes(trial, tmp_path):
     path = tmp_path / "plugin.py"
     path.write_text("def work(argument):\n    return argument\n")

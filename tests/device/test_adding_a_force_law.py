@@ -45,10 +45,12 @@ def use(name: str) -> None:
     laws.energy_bound({name: {}}, PROFILE)
 
 
+@pytest.mark.long("machine")
 def test_a_law_in_the_users_own_folder_is_found_just_the_way_the_page_says(own: Path) -> None:
     runs_as_the_page_says(own)
 
 
+@pytest.mark.long("machine")
 def test_a_law_in_a_folder_appended_to_the_path_is_found_too(appended: Path) -> None:
     runs_as_the_page_says(appended)
 

@@ -148,6 +148,7 @@ def test_turning_the_links_by_hand_tells_wrong_encoders_before_any_torque(parts,
     assert not bench.loop.rows(since)[:, sv.TORQUE_LEFT].any()
 
 
+@pytest.mark.long("machine")
 def test_friction_comes_out_as_the_plant_has_it(parts):
     _link, bench, person = parts
     commission(bench, person)
@@ -160,6 +161,7 @@ def test_friction_comes_out_as_the_plant_has_it(parts):
         assert side.residual < 2e-4
 
 
+@pytest.mark.long("machine")
 def test_friction_of_a_stuck_joint_is_refused(parts):
     link, bench, person = parts
     commission(bench, person)

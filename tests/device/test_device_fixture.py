@@ -159,6 +159,7 @@ def test_repulsion_fades_with_the_speed_along_it_and_never_against_it():
         assert moving == pytest.approx(share * full, abs=1e-12)
 
 
+@pytest.mark.long("machine")
 @RELAXED
 @given(st.integers(0, 10_000))
 def test_around_any_closed_motion_the_repulsion_gives_nothing_away(seed):

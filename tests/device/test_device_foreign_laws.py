@@ -73,6 +73,7 @@ def test_a_law_that_writes_the_heartbeat_keeps_nothing_alive():
         assert torques(rig, 100) == 0.0
 
 
+@pytest.mark.long("machine")
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(
     st.lists(
@@ -95,6 +96,7 @@ def test_whatever_a_law_writes_beside_its_sums_the_tick_is_the_same(pairs):
     assert np.array_equal(rows[0], rows[1], equal_nan=True)
 
 
+@pytest.mark.long("machine")
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(st.lists(st.tuples(st.sampled_from(sv.SUMS), st.floats()), max_size=8))
 def test_whatever_a_law_writes_into_its_sums_the_force_stays_within_the_cap(pairs):
@@ -149,6 +151,7 @@ IMPORTED = "from app.core.compiled import njit, stage\n"
 WITH_NJIT = ("from app.core.compiled import stage\n", IMPORTED)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("what", REFUSED)
 def test_a_law_that_could_do_harm_is_refused_with_file_line_and_reason(own, what):
     added, reason = REFUSED[what]
@@ -163,6 +166,7 @@ def test_a_law_that_could_do_harm_is_refused_with_file_line_and_reason(own, what
         assert "(trial, state " in str(caught.value)
 
 
+@pytest.mark.long("machine")
 def test_what_does_not_compile_is_refused_with_its_line_before_the_trial(own):
     save(own, "    open('x')\n")
     line = CODE.count("\n") + 1
@@ -170,6 +174,7 @@ def test_what_does_not_compile_is_refused_with_its_line_before_the_trial(own):
         laws.stages_of({"upright_spring": {}}, PROFILE)
 
 
+@pytest.mark.long("machine")
 def test_a_law_that_allocates_in_a_tick_is_refused(own):
     imports = (
         "from app.core import state_vector",
@@ -192,6 +197,7 @@ def test_a_law_that_declares_what_is_the_loops_own_is_refused(own):
         laws.stages_of({"upright_spring": {}}, PROFILE)
 
 
+@pytest.mark.long("machine")
 def test_a_law_that_gives_a_shorter_array_than_it_was_tried_with_is_refused(own):
     """Which array it gives for values that no trial gave, nobody has seen."""
     short = (
@@ -207,6 +213,7 @@ def test_a_law_that_gives_a_shorter_array_than_it_was_tried_with_is_refused(own)
         laws.stages_of({"upright_spring": {"stiffness": 7.0}}, PROFILE)
 
 
+@pytest.mark.long("machine")
 def test_an_index_that_only_a_function_of_the_program_sees_is_found_by_the_trial(own):
     save(
         own,
@@ -229,6 +236,7 @@ def test_an_index_that_only_a_function_of_the_program_sees_is_found_by_the_trial
     assert "IndexError" in laws.refused()[own / NAME]
 
 
+@pytest.mark.long("machine")
 def test_the_verdict_of_a_trial_is_kept_until_the_file_changes(own):
     save(own)
     laws.stages_of({"upright_spring": {}}, PROFILE)
@@ -241,6 +249,7 @@ def test_the_verdict_of_a_trial_is_kept_until_the_file_changes(own):
     assert KIND.trial.known(own / NAME) == {}
 
 
+@pytest.mark.long("machine")
 def test_laws_that_are_there_already_and_fail_are_listed_and_stay(own):
     save(own, "    state[100000] += 1.0\n")
     (own / "broken.py").write_text("def\n", encoding="utf-8")
@@ -316,6 +325,7 @@ def later(patient, monkeypatch):
     )[0]
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("misdeed", ["arms", "lifts", "nan"])
 def test_a_law_that_misbehaves_after_its_trial_keeps_and_lifts_nothing(later, misdeed):
     law = later(misdeed)
@@ -331,6 +341,7 @@ def test_a_law_that_misbehaves_after_its_trial_keeps_and_lifts_nothing(later, mi
         assert torques(rig, 1500) == 0.0
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("misdeed", "reason"),
     [

@@ -89,6 +89,7 @@ def brute_force(start, axis, d, length):
     return np.linalg.norm(gap, axis=-1).min()
 
 
+@pytest.mark.long("machine")
 @RELAXED
 @given(directions, directions, directions, st.floats(0.0, 1.0))
 def test_nearest_points_of_two_segments_are_nearest(start, axis, d, length):
@@ -256,6 +257,7 @@ def test_the_impedance_gives_out_no_more_than_it_was_given(seed):
         assert given_out + done[sv.POTENTIAL] <= 3e-4
 
 
+@pytest.mark.long("machine")
 @RELAXED
 @given(st.floats(0.0, 0.6), azimuths, speeds, depths)
 def test_with_the_velocity_torques_the_tool_obeys_its_own_inertia(tilt, azimuth, qd, depth):
@@ -339,6 +341,7 @@ def test_near_rest_no_friction_is_made_up_for_and_nothing_jumps():
     assert np.abs(np.diff(torques)).max() < 3e-5
 
 
+@pytest.mark.long("machine")
 @RELAXED
 @given(st.sampled_from(["cone_wall", "forbidden_region", "compensation"]), st.integers(0, 999))
 def test_sliding_the_needle_counts_as_gain_and_turning_it_does_not(name, seed):

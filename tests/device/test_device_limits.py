@@ -56,6 +56,7 @@ def test_the_slew_factor_is_a_factor_whatever_comes_in(a, b, c, d, step):
     assert 0.0 <= factor <= 1.0
 
 
+@pytest.mark.long("machine")
 @many
 @given(anything, st.floats(0.0, 1.0), st.floats(1.001, 2.0))
 def test_the_fade_is_a_factor_that_only_falls_with_age(age, start, end):
@@ -84,6 +85,7 @@ def test_the_cap_is_the_smallest_of_the_limits_and_zero_for_no_number(cleared, h
     assert cap(5.0, 0.0, 1.0, 0.3) == 0.0
 
 
+@pytest.mark.long("machine")
 @many
 @given(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0), st.floats(-3.0, 3.0), st.floats(0.0, 1.2))
 def test_beyond_the_tilt_limit_only_the_outward_part_fades(gx, gy, azimuth, tilt):

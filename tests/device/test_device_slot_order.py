@@ -41,6 +41,7 @@ def test_however_lines_are_shuffled_the_tick_stays_the_same_bit_for_bit(outcomes
         assert outcomes[f"shuffled {seed}"] == outcomes["as it is"], seed
 
 
+@pytest.mark.long("machine")
 def test_a_line_moved_anywhere_changes_nothing_or_is_refused(outcomes):
     for label, outcome in outcomes.items():
         assert outcome.startswith("refused: ") or outcome == outcomes["as it is"], label
@@ -48,6 +49,7 @@ def test_a_line_moved_anywhere_changes_nothing_or_is_refused(outcomes):
         assert outcomes[label] == outcomes["as it is"], label
 
 
+@pytest.mark.long("machine")
 def test_what_would_change_its_meaning_is_refused_with_the_reason(outcomes):
     assert "below the last input" in outcomes["an input below"]
     assert "among the inputs" in outcomes["a slot among the inputs"]

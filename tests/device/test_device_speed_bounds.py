@@ -53,6 +53,7 @@ def pose(profile, tilt, azimuth):
     return state, q, -(across[:, :2] @ j) / needle.l_in
 
 
+@pytest.mark.long("machine")
 @settings(derandomize=True, deadline=None, max_examples=150)
 @given(
     name=st.sampled_from(sorted(PROFILES)),

@@ -63,6 +63,7 @@ def restart(rig):
     rig.link.open()
 
 
+@pytest.mark.long("machine")
 @pytest.mark.timeout(900)
 @pytest.mark.parametrize("name", PROFILES)
 def test_random_faults_never_give_a_torque_above_the_limit(name):

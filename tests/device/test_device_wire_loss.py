@@ -82,6 +82,7 @@ def test_a_killed_program_leaves_the_motors_at_zero_within_the_watchdogs_time(ro
     assert not pushing(rows[-1])
 
 
+@pytest.mark.long("machine")
 def test_an_unplugged_robot_stops_and_is_driven_again_when_it_is_plugged_in(robot):
     client = Client(robot)
     with client.loop:
@@ -104,6 +105,7 @@ def test_an_unplugged_robot_stops_and_is_driven_again_when_it_is_plugged_in(robo
     robot.rows_until(lambda rows: len(rows) > 20 and not pushing(rows[-5:]).any())
 
 
+@pytest.mark.long("machine")
 def test_a_robot_that_restarts_is_greeted_again_and_is_not_homed(robot):
     client = Client(robot)
     with client.loop:
@@ -119,11 +121,13 @@ def test_a_robot_that_restarts_is_greeted_again_and_is_not_homed(robot):
         assert not client.link.is_homed
 
 
+@pytest.mark.long("machine")
 def test_two_programs_on_one_board_are_told_apart_by_name_of_the_port(robot):
     with Client(robot).loop, pytest.raises(LinkError, match=r"busy.*another program"):
         SerialLink(robot.path, ICUBE).open()
 
 
+@pytest.mark.long("machine")
 def test_a_frozen_board_is_said_to_be_silent_and_comes_back(robot):
     client = Client(robot)
     with client.loop:
@@ -134,6 +138,7 @@ def test_a_frozen_board_is_said_to_be_silent_and_comes_back(robot):
         wait_for(lambda: client["link_status"] == LinkStatus.FINE)
 
 
+@pytest.mark.long("machine")
 def test_a_board_of_another_version_is_named_with_both_versions(robot):
     robot.order("version 9")
     link = SerialLink(robot.path, ICUBE)
@@ -143,6 +148,7 @@ def test_a_board_of_another_version_is_named_with_both_versions(robot):
     link.close()
 
 
+@pytest.mark.long("machine")
 def test_a_board_of_another_robot_is_refused_with_its_name(robot):
     other = ICUBE.model_copy(update={"name": "other"})
     with pytest.raises(LinkError, match=r"'icube'.*'other'"):

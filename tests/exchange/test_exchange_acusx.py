@@ -87,6 +87,7 @@ def left_of(folder):
 
 
 # --- there and back -----------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_a_phantoms_exercise_comes_back_equal(tmp_path, elsewhere):
     exercise = load_exercise("past-the-vessel").model_copy(update={"id": "mine"})
     folder = phantom_series(3, slices=8, rows=32)  # its digest is of no concern here
@@ -145,6 +146,7 @@ def test_profiles_of_ones_own_go_along(tmp_path, elsewhere):
 
 
 # --- which CT -----------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_without_its_ct_it_says_which_one_is_needed(file, ct, elsewhere):
     with pytest.raises(CtMissingError, match="does not hold its CT: name the folder"):
         unpack(file)
@@ -185,6 +187,7 @@ def test_the_ct_of_pack_must_be_that_of_the_exercise(tmp_path, ct):
     assert not (tmp_path / "a.acusx").exists()
 
 
+@pytest.mark.long("journey")
 def test_another_ct_under_the_same_name_in_the_library_is_left_alone(tmp_path, ct, elsewhere):
     path = tmp_path / "a.acusx"
     pack(path, of_ct(ct), load_ct(ct), with_ct=True)
@@ -200,6 +203,7 @@ def test_another_ct_under_the_same_name_in_the_library_is_left_alone(tmp_path, c
         load_exercise("second")
 
 
+@pytest.mark.long("journey")
 def test_an_id_that_is_taken_needs_a_choice(file, ct, elsewhere):
     assert unpack(file, ct=ct).exercise.version == 1
     mine = elsewhere / "exercises" / "mine.yaml"
@@ -305,6 +309,7 @@ def test_a_file_that_was_cut_off_or_is_none_is_one_line(cut, file, ct, elsewhere
     assert "\n" not in str(raised.value)
 
 
+@pytest.mark.long("journey")
 def test_bits_that_were_turned_over_crash_nothing(file, ct, elsewhere):
     whole, rng, refused = file.read_bytes(), np.random.default_rng(1), []
     for place in rng.integers(0, len(whole), 60):
@@ -320,6 +325,7 @@ def test_bits_that_were_turned_over_crash_nothing(file, ct, elsewhere):
 
 
 # --- on the command line ------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_the_commands_carry_an_exercise_to_another_computer(tmp_path, ct, monkeypatch):
     def acus(*words):
         result = CliRunner().invoke(build(), ["exercise", *map(str, words), "--json"])

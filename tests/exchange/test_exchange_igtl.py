@@ -281,6 +281,7 @@ def test_garbage_ends_one_peer_with_one_line(server, peer):
     assert peer.wait_for_message("NeedleToRas", 5) is not None
 
 
+@pytest.mark.long("journey")
 def test_a_peer_that_takes_nothing_is_dropped_and_others_see_none_of_it(stage, server, peer):
     big = scan(5, 1024, 1024)
     with knock(server.port, buffer=4096):

@@ -109,6 +109,7 @@ def test_names_stand_in_files_only_when_asked(results: Results) -> None:
         assert "Lovelace" not in results_text(results, form)
 
 
+@pytest.mark.long("journey")
 def test_ten_thousand_attempts_report_progress_and_can_be_cancelled(results: Results) -> None:
     many = Results(results.board, [*results.attempts] * 2500, results.people, {}, {})
     told: list[float] = []

@@ -162,6 +162,7 @@ def _held(profile, t, depth):
     return pulled.tensions
 
 
+@pytest.mark.long("journey")
 def test_tensions_of_ours_balance_guide_and_bars_in_mujoco(machine):
     profile, model, data = machine
     for t in directions(25, 5, 0.8 * profile.tilt_limit):

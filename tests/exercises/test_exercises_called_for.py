@@ -62,6 +62,7 @@ def test_a_patient_of_fat_alone_is_pierced_cut_and_rubs_and_has_neither_bone_nor
     assert all(one.is_absent for one in found.values())
 
 
+@pytest.mark.long("statistics")
 def test_bone_beside_the_path_calls_for_its_contact_at_the_depth_that_geometry_says() -> None:
     field = patient(block=("bone", slice(20, 28), slice(10, 40)))
     # Its nearest edge lies 10 mm beside the path and 20 mm deep: sqrt(10² + 20²) = 22.4 mm.
@@ -77,6 +78,7 @@ def test_bone_beyond_the_tilt_of_the_machine_calls_for_nothing() -> None:
     assert "bone_contact" not in calls(exercise(), field)
 
 
+@pytest.mark.long("statistics")
 def test_what_breathes_calls_for_the_breath() -> None:
     assert "breathing" in calls(exercise(), patient("organ"))
     lung = calls(exercise(), patient(block=("lung", slice(40, 90), slice(-60, 60))))
@@ -84,11 +86,13 @@ def test_what_breathes_calls_for_the_breath() -> None:
     assert "pleura" in lung["puncture"].reason
 
 
+@pytest.mark.long("statistics")
 def test_a_bevelled_needle_calls_for_its_curve() -> None:
     assert "bevel" not in calls(exercise(), patient())
     assert "bevel" in calls(exercise(needle={"tip": "bevel"}), patient())
 
 
+@pytest.mark.long("statistics")
 def test_a_label_that_is_hardly_sure_calls_for_nothing() -> None:
     field = patient(block=("bone", slice(20, 28), slice(-10, 10)))
     unsure = list(field.tissues)
@@ -158,6 +162,7 @@ def test_nothing_is_absent_from_a_shipped_exercise_without_a_reason(name: str) -
     assert not [one.words for one in found if one.is_absent]
 
 
+@pytest.mark.long("statistics")
 def test_the_exercise_as_it_was_lacked_what_its_patient_calls_for() -> None:
     now = load_exercise("kidney")
     document = now.model_dump(mode="json", by_alias=True)

@@ -25,6 +25,7 @@ def changed(**values):
     return Exercise.model_validate({**ASKS, **values})
 
 
+@pytest.mark.long("journey")
 def test_what_is_not_asked_for_is_not_there() -> None:
     plain, with_them = load_exercise("lung-biopsy"), load_exercise("lung-biopsy-complications")
     assert ComplicationCase.of(plain, PLACED, chest()) is None

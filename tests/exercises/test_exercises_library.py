@@ -96,6 +96,7 @@ def test_a_file_that_does_not_exist_is_refused_by_path(tmp_path: Path) -> None:
         load_exercise(tmp_path / "absent.yaml")
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "content",
     [b"\xff\xfe", b"? [1]\n: 2\n", b"id: !!bool x\n", b"seed: " + b"9" * 5000, b"[" * 3000],

@@ -74,6 +74,7 @@ def attempt(exercise: Exercise, badness: float, seed: int) -> Score:
     return score(trajectory, exercise.tolerances, exercise.rules)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_perfect_attempt_scores_100(name: str) -> None:
     result = attempt(load_exercise(name), 0.0, seed=1)
@@ -100,6 +101,7 @@ def test_a_bad_attempt_fails_by_its_required_metrics(name: str) -> None:
     assert result.failures
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", [name for name in SHIPPED if name != "plan-it-yourself"])
 def test_the_path_of_each_shipped_exercise_is_within_reach(name: str) -> None:
     exercise = load_exercise(name)
@@ -110,6 +112,7 @@ def test_the_path_of_each_shipped_exercise_is_within_reach(name: str) -> None:
     assert plan.name == name
 
 
+@pytest.mark.long("journey")
 def test_assessments_guide_by_control_scans_and_show_nothing_live() -> None:
     assessments = [e for e in map(load_exercise, SHIPPED) if e.purpose is Purpose.ASSESSMENT]
     assert [exercise.id for exercise in assessments] == ["scans-only"]

@@ -68,6 +68,7 @@ def test_attempts_stay_comparable_whatever_path_the_student_chose(
     assert conditions_of(asks) != conditions_of(exercise())
 
 
+@pytest.mark.long("statistics")
 def test_what_is_simulated_is_explained_with_the_layers_of_the_ct(
     exercise: Callable[..., Exercise],
 ) -> None:

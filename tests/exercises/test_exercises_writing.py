@@ -131,6 +131,7 @@ def test_paths_below_the_folder_are_written_from_there(own: Path) -> None:
 
 
 # --- versions -----------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_a_changed_exercise_is_a_new_version_and_the_earlier_ones_are_kept(own: Path) -> None:
     first = save(load_exercise("first-insertion").model_copy(update={"id": "mine", "version": 1}))
     assert first.version == 1
@@ -147,6 +148,7 @@ def test_a_changed_exercise_is_a_new_version_and_the_earlier_ones_are_kept(own: 
         load_exercise("mine@7")
 
 
+@pytest.mark.long("journey")
 def test_a_deleted_exercise_leaves_its_version_numbers_taken(own: Path) -> None:
     first = save(load_exercise("first-insertion").model_copy(update={"id": "mine", "version": 1}))
     save(first.model_copy(update={"level": 4}))
@@ -168,6 +170,7 @@ def test_a_file_that_cannot_be_used_is_not_written_over(own: Path) -> None:
     assert (own / "mine.yaml").read_text() == "id: ["
 
 
+@pytest.mark.long("journey")
 def test_a_file_of_another_name_keeps_its_name(own: Path) -> None:
     own.mkdir()
     (own / "by-hand.yaml").write_text("id: mine\ntitle: Mine\n")
@@ -179,6 +182,7 @@ def test_a_file_of_another_name_keeps_its_name(own: Path) -> None:
     ]
 
 
+@pytest.mark.long("journey")
 def test_a_full_disk_and_a_folder_that_is_none_are_one_line_and_nothing_is_lost(
     own: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

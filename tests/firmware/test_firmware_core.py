@@ -309,6 +309,7 @@ def requests(channels):
     )
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("device", ["icube", "tensegrity"])
 def test_frames_are_the_emulators_to_the_byte(device):
     built("bench", device)

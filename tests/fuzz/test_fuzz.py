@@ -34,6 +34,7 @@ def test_mutated_files_of_every_kind_end_in_a_named_error_or_something_right(tmp
     assert tally.child_bytes < MOST_CHILD_BYTES
 
 
+@pytest.mark.long("journey")
 def test_every_kind_of_file_that_the_program_reads_itself_has_its_place(tmp_path):
     names = {name for name, *_ in documents(tmp_path)}
     assert names >= {
@@ -44,6 +45,7 @@ def test_every_kind_of_file_that_the_program_reads_itself_has_its_place(tmp_path
     assert sum(name.startswith("TemugeB") for name in names) == 2
 
 
+@pytest.mark.long("journey")
 def test_rle_that_makes_its_decoder_panic_is_refused_by_name(tmp_path, known):
     path, seed = tmp_path / "panic", known["RLE"]
     whole = seed.files[MIDDLE]

@@ -78,6 +78,7 @@ def test_two_zones_that_are_one_cover_as_much_as_one():
     assert whole == pytest.approx(lesion.volume_mm3, rel=1e-4)
 
 
+@pytest.mark.long("statistics")
 def test_zones_outside_the_body_and_the_field_are_told_and_break_nothing():
     lesion = Lesion.at(liver(), (0.0, 0.0, 0.0))
     for off in (45.0, 90.0, 1e5):
@@ -88,6 +89,7 @@ def test_zones_outside_the_body_and_the_field_are_told_and_break_nothing():
         assert np.isfinite(away.margin_mm).all()
 
 
+@pytest.mark.long("statistics")
 def test_a_hole_that_zones_leave_inside_the_lesion_is_no_margin():
     lesion = Lesion.at(liver(), (0.0, 0.0, 0.0))
     ring = [

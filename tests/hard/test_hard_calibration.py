@@ -59,6 +59,7 @@ def test_views_all_in_parallel_planes_do_not_determine_the_focal_length(rig: Rig
         calibrate_mono(views_at(rig, poses), "left", 0)
 
 
+@pytest.mark.long("statistics")
 def test_the_same_tilted_view_again_and_again_is_refused_or_its_uncertainty_is_huge(
     rig: Rig,
 ) -> None:
@@ -264,6 +265,7 @@ def test_a_print_at_97_percent_is_caught_by_the_ruler_and_by_the_plate_that_is_t
         check.agreement(true.mean(axis=0))
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("scale", "least", "most"), [(1.0, 0, 0), (1.0 / 0.97, 190, 200)])
 def test_careful_touches_show_a_print_at_97_percent_and_never_call_a_true_one_wrong(
     scale: float, least: int, most: int

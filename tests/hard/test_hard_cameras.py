@@ -25,6 +25,7 @@ def _frame(time, grey=0):
 _TIMES = st.floats(allow_nan=True, allow_infinity=True) | st.floats(0.0, 20.0)
 
 
+@pytest.mark.long("statistics")
 @given(st.lists(st.tuples(_TIMES, st.integers(0, 3)), max_size=40))
 def test_whatever_a_driver_says_the_times_that_pass_only_grow_and_each_picture_is_counted(stream):
     intake, passed = Intake(noise_expected=True), []
@@ -109,6 +110,7 @@ def _until(condition):
         real_time.sleep(0.001)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("later", "state"),
     [
@@ -143,6 +145,7 @@ class _Scripted(Camera):
         self.stop.set()
 
 
+@pytest.mark.long("statistics")
 def test_refused_pictures_never_replace_the_newest_one():
     clock = VirtualClock(10.0)
     frames = [_frame(9.0, 1), _frame(9.1, 2), _frame(9.05, 3), _frame(9.1, 4), _frame(11.0, 5)]

@@ -26,6 +26,7 @@ def assert_force_is_bounded(rig, cap):
     assert (force[within] <= rig.of("most")[within] * (1.0 + HAND) + 1e-4).all()
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", RIGS)
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize("cap", [5.0, 1.0])
@@ -78,6 +79,7 @@ def test_whatever_the_cameras_show_the_force_stays_within_its_limit_while_the_tr
     assert_force_is_bounded(rig, cap)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("jump", [-0.1, -0.05, 0.05, 0.1])
 def test_a_band_that_jumps_is_not_believed_until_ten_pictures_agree(jump):
     rig = DepthRig("wide", 0.02 if jump > 0.0 else 0.1)
@@ -101,6 +103,7 @@ def test_a_band_that_jumps_is_not_believed_until_ten_pictures_agree(jump):
     assert "jumped" in told[0]
 
 
+@pytest.mark.long("statistics")
 def test_a_measured_depth_gives_nearly_the_whole_force_and_says_how_well_it_is_known():
     rig = DepthRig("wide", 0.09, x=0.5)
     rig.step(0.7)
@@ -114,6 +117,7 @@ def test_a_measured_depth_gives_nearly_the_whole_force_and_says_how_well_it_is_k
     assert rig.of("most", 200).max() <= 5.0 + 1e-9
 
 
+@pytest.mark.long("statistics")
 def test_force_does_not_hum_with_the_age_of_the_pictures():
     rig = DepthRig("wide", 0.1, x=0.5)
     rig.step(0.7)
@@ -124,6 +128,7 @@ def test_force_does_not_hum_with_the_age_of_the_pictures():
     assert np.ptp(force) < 0.03 * force.mean()
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", RIGS)
 @pytest.mark.parametrize("depth", DEPTHS)
 def test_a_needle_let_go_with_its_band_hidden_stays_within_the_bound(name, depth):
@@ -137,6 +142,7 @@ def test_a_needle_let_go_with_its_band_hidden_stays_within_the_bound(name, depth
     assert rig.of("speed", 300).max() <= rig.profile.let_go.speed
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("jump", [-0.1, 0.1])
 def test_a_needle_let_go_while_the_cameras_see_something_else_stays_within_the_bound(jump):
     rig = DepthRig("wide", 0.02 if jump > 0.0 else 0.1)

@@ -144,6 +144,7 @@ def given_out_beyond(plan: SimulationPlan, legs: Sequence[Leg]) -> float:
     return largest_rise(out) - bound
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("name", "model"), WAYS, ids=[" ".join(way) for way in WAYS])
 @settings(derandomize=True, deadline=None, max_examples=12)
 @given(legs=LEGS)
@@ -153,6 +154,7 @@ def test_an_effect_gives_out_no_more_than_it_stores_or_its_source_supplied(name,
     assert given_out_beyond(plan_of((name, model)), legs) <= 1e-9
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=12)
 @given(legs=LEGS)
 def test_all_effects_together_give_out_no_more_than_they_store_and_sources_supplied(legs):

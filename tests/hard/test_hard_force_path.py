@@ -33,6 +33,7 @@ def assert_safe(rows: np.ndarray) -> None:
     assert set(rows[..., sv.FAULT].ravel().astype(int)) <= {int(fault) for fault in Fault}
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.promise("README.md: at most 5 N at the hand")
 @settings(derandomize=True, deadline=None, max_examples=150)
 @given(
@@ -54,6 +55,7 @@ def test_whatever_comes_in_the_force_is_finite_and_within_its_limits(inputs, q, 
         assert_safe(rig.loop.rows())
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=100)
 @given(st.floats(-4.0, 4.0), st.floats(-4.0, 4.0), st.floats(-0.5, 0.5))
 def test_in_any_pose_of_the_motors_the_force_stays_within_its_limits(q1, q2, depth):
@@ -228,6 +230,7 @@ def test_a_robot_without_inertia_gets_no_torque():
     assert not state[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]].any()
 
 
+@pytest.mark.long("statistics")
 def test_a_rig_at_rest_for_ten_minutes_stays_finite():
     rig = Rig()
     with rig.loop:

@@ -42,6 +42,7 @@ def fair(holds: bool) -> np.ndarray:
     return state
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=300)
 @given(
     holds=st.booleans(),

@@ -28,6 +28,7 @@ QUICK = settings(
 )
 
 
+@pytest.mark.long("statistics")
 @given(where=st.integers(0, 1200), value=st.integers(0, 255), length=st.integers(1, 8))
 @QUICK
 def test_a_damaged_byte_never_gives_anything_but_a_verdict(tmp_path, where, value, length):
@@ -45,6 +46,7 @@ def test_a_damaged_byte_never_gives_anything_but_a_verdict(tmp_path, where, valu
         assert np.isfinite(volume.affine_mm).all()
 
 
+@pytest.mark.long("statistics")
 @given(keep=st.floats(0.0, 0.9999))
 @QUICK
 def test_a_file_cut_anywhere_is_never_taken_for_whole(tmp_path, keep):

@@ -88,6 +88,7 @@ def test_spring_and_hill_without_strength_or_reach_do_nothing():
     assert hill_kernel(0.0, 0.0, 10.0) == (0.0, 0.0)
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=300)
 @given(st.tuples(*(st.floats(-1e6, 1e6),) * 6), st.floats(0.0, 5.0))
 def test_the_damper_gives_way_just_enough(numbers, limit):

@@ -53,6 +53,7 @@ def assert_calm(run, profile) -> None:
         assert set(run.rows[run.noticed :, sv.FAULT]) == {Fault.LET_GO}
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", PROFILES)
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(
@@ -89,6 +90,7 @@ def test_let_go_anywhere_under_any_law_and_inertia_the_program_gives_no_more_tha
         assert_calm(rig.run_away(), profile)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", PROFILES)
 @settings(derandomize=True, deadline=None, max_examples=30)
 @given(
@@ -295,6 +297,7 @@ def test_disarming_forgets_the_needle_that_ran_away():
         assert np.linalg.norm(rig.loop.latest().felt) > 1.0
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=200)
 @given(
     st.lists(st.floats(0.0, 80.0), min_size=3, max_size=24),

@@ -54,6 +54,7 @@ def _noisy(image, rng):
     return np.clip(np.rint(image + rng.normal(0.0, 4.0, image.shape)), 0, 255).astype(np.uint8)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("angle", [0.0, 1.1, 2.4, 4.0, 5.2])
 @pytest.mark.parametrize("share", [-3.0, 0.0, 3.0])
 def test_a_finger_over_the_band_is_refused_or_within_four_standard_deviations(

@@ -60,6 +60,7 @@ def test_none_gives_out_more_than_its_declared_stored_energy(
     assert out[-1] <= 0.1 * bound  # back outside, and nothing gained
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("name", "model"), CASES)
 @QUICK
 @given(st.lists(st.tuples(ANY, ANY), max_size=30))

@@ -80,6 +80,7 @@ def test_a_needle_turned_to_nearly_its_opposite_gives_square_planes(axis, tilt):
         check(follow(frame_of(TIP, axis), TIP, -axis + tilt * aside))
 
 
+@pytest.mark.long("statistics")
 @given(st.lists(vectors, min_size=2, max_size=12))
 @example([(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)])
 @example([(0.0, 1.0, 0.0), (0.0, -1.0, 0.0)])
@@ -91,6 +92,7 @@ def test_whatever_the_needle_does_the_planes_stay_square_and_turn_no_faster_than
         assert rotation_angle(before, after) <= (1.0 + ROLL_PER_TURN) * turn + 1e-9
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.promise("README.md: the needle's own planes that never jump")
 @given(vectors, vectors, st.integers(20, 80))
 @example((0.0, 1.0, 0.0), (0.0, -1.0, 0.0), 60)
@@ -104,6 +106,7 @@ def test_a_needle_that_turns_slowly_never_makes_the_picture_jump(start, end, ste
         assert rotation_angle(before, after) <= (1.0 + ROLL_PER_TURN) * largest + 1e-9
 
 
+@pytest.mark.long("statistics")
 @given(st.floats(0.0, 0.94), st.booleans(), st.floats(2.0, 6.0))
 @settings(hard, max_examples=12)
 def test_where_superior_holds_the_planes_depend_on_the_direction_alone(height, below, step_deg):

@@ -49,6 +49,7 @@ def test_in_a_hundred_thousand_wild_motions_no_window_lets_out_more_than_declare
     assert rig.hand[RISE] > 0.01, "the hand did get energy out"
 
 
+@pytest.mark.long("statistics")
 def test_a_small_tank_holds_as_well_and_without_the_guard_it_would_not():
     small = 0.05
     guarded, free = PortRig(seed=5, bound=small), PortRig(seed=5, guarded=False)
@@ -58,6 +59,7 @@ def test_a_small_tank_holds_as_well_and_without_the_guard_it_would_not():
     assert free.hand[RISE] > 4.0 * small
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("bound", [None, 0.05])
 def test_over_a_wire_that_brings_the_angles_a_tick_late_no_more_gets_out(bound):
     rig = PortRig(seed=3, bound=bound, late=True)

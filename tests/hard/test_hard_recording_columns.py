@@ -26,6 +26,7 @@ def bits(values: FloatArray) -> np.ndarray:
     return np.ascontiguousarray(values, dtype=np.float64).view(np.uint64)
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=200)
 @given(st.lists(st.tuples(ANY_FLOAT, ANY_FLOAT, ANY_FLOAT), min_size=1, max_size=40))
 def test_any_numbers_stored_as_columns_come_back_with_every_bit(rows: list[tuple[float]]) -> None:
@@ -50,6 +51,7 @@ def test_times_of_a_clock_in_nanoseconds_come_back_with_every_bit(
     np.testing.assert_array_equal(bits(again), bits(values))
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=150)
 @given(cut=st.floats(0.0, 1.0, exclude_max=True), at=st.floats(0.0, 1.0), flip=st.integers(0, 255))
 def test_a_block_that_is_cut_or_changed_is_refused_or_read_and_never_crashes(

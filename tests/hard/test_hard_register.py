@@ -24,6 +24,7 @@ from tools.exact import ENTRIES, WORKING
 ALL = pytest.mark.parametrize("case", cases(), ids=lambda case: case.name)
 
 
+@pytest.mark.long("statistics")
 @ALL
 def test_the_case_holds_and_what_is_said_of_the_step_beyond_happens(case):
     outcome = tried(case)

@@ -130,6 +130,7 @@ def test_touches_in_millimetres_are_refused() -> None:
         NamedPoints(plate.names, plate.touch * 1e3, np.zeros((6, 3, 3)))
 
 
+@pytest.mark.long("statistics")
 @seeded
 @given(
     st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=3, max_size=8),

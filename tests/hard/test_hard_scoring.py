@@ -222,6 +222,7 @@ def test_a_phase_that_flickers_at_every_sample_is_bounded() -> None:
     assert result.row("path_length").value == 0.0
 
 
+@pytest.mark.long("statistics")
 @seeded
 @given(
     st.integers(0, 40),

@@ -81,6 +81,7 @@ def test_joints_and_direction_close_to_the_law_of_their_conditions(geometry, bet
     assert np.linalg.norm(forward(geometry, found) - t) <= 1e-14 / max(height, 1e-8)
 
 
+@pytest.mark.long("statistics")
 @given(machines, st.tuples(finite, finite, finite))
 @RELAXED
 def test_every_direction_has_a_nearest_one_within_reach_that_is_its_own(geometry, t):
@@ -261,6 +262,7 @@ def test_spheres_in_line_apart_or_not_a_number_are_named():
         trilaterate([np.zeros(3), a, [0.0, 0.0, np.nan]], [0.1339, 0.1, 0.1])
 
 
+@pytest.mark.long("statistics")
 @given(st.lists(anything, min_size=2, max_size=2), st.lists(anything, min_size=2, max_size=2))
 @RELAXED
 def test_every_public_function_answers_finitely_or_by_a_named_error(beta, load):

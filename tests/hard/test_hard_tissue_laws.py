@@ -45,6 +45,7 @@ TICKS = st.lists(
 )
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", LAWS)
 @QUICK
 @given(TICKS)
@@ -79,6 +80,7 @@ def closed_paths(draw: st.DrawFn) -> FloatArray:
     return np.concatenate(depths)
 
 
+@pytest.mark.long("statistics")
 @QUICK
 @given(closed_paths())
 def test_the_whole_gives_out_no_more_than_it_holds_and_nothing_in_the_end(
@@ -97,6 +99,7 @@ def test_the_whole_gives_out_no_more_than_it_holds_and_nothing_in_the_end(
     assert out[-1] <= 0.05 * bound  # what a tick that leaves a dimple whole cannot tell
 
 
+@pytest.mark.long("statistics")
 @QUICK
 @given(
     st.lists(st.tuples(st.floats(0.0, 0.15), st.floats(-0.3, 0.3), CODE), min_size=1, max_size=25)

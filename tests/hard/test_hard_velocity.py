@@ -100,6 +100,7 @@ def test_a_late_tick_never_shows_as_a_burst_of_speed(method, late):
     assert worst <= 0.2 + COUNT / 1e-3 + 1e-9
 
 
+@pytest.mark.long("statistics")
 @every_method
 @settings(derandomize=True, deadline=None, max_examples=100)
 @given(

@@ -94,6 +94,7 @@ def test_a_line_that_starts_inside_or_misses_is_refused(ball):
         skin_entry(ball, at(ball, (-55, -45, 0)), at(ball, (55, -45, 0)))
 
 
+@pytest.mark.long("journey")
 def test_the_skin_of_the_real_chest_is_without_its_table(shared_data):
     from app.imaging.reading import load_ct
 

@@ -15,6 +15,7 @@ def box(volume, low, high):
     return Structure.of("box", mask, volume)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("turn", [None, turned()])
 @pytest.mark.parametrize("spacing", [(0.8, 0.8, 2.0), (0.7, 0.7, 0.7), (1.0, 1.0, 5.0)])
 def test_a_ball_is_as_far_as_it_is_to_half_a_voxel(spacing, turn):
@@ -49,6 +50,7 @@ def test_the_boundary_of_any_mask_is_closed_and_the_nearest_triangle_is_found(se
     assert (boundary.at(points) <= most + 1e-9).all()
 
 
+@pytest.mark.long("statistics")
 def test_a_path_beside_touching_and_through_a_box_is_told_exactly():
     volume = made((60, 60, 40), (0.8, 0.8, 2.0))
     one = box(volume, (20, 20, 10), (39, 39, 29))

@@ -56,6 +56,7 @@ def test_list_prints_geometry_and_reason_and_no_name(ct, tmp_path):
     assert "ecret" not in (out + text).lower()
 
 
+@pytest.mark.long("journey")
 def test_a_frame_of_a_multi_frame_file_is_named_from_one(ct, tmp_path):
     write_enhanced(tmp_path / "e", Slices())
     _, out, _ = ct("list", tmp_path, "--json")
@@ -189,6 +190,7 @@ def test_bad_folders_are_one_line_and_exit_code_two(ct, tmp_path, verb):
         assert err.count("\n") == 1
 
 
+@pytest.mark.long("journey")
 def test_path_says_what_a_straight_line_meets_and_how_sure_that_is(ct):
     folder, plan = phantom_series(1, slices=60, rows=64), anatomy(1)
     ends = [",".join(f"{value:.1f}" for value in p) for p in (plan.entry_mm, plan.lesion_mm)]
@@ -206,6 +208,7 @@ def test_path_says_what_a_straight_line_meets_and_how_sure_that_is(ct):
     assert "three numbers X,Y,Z" in said
 
 
+@pytest.mark.long("journey")
 def test_path_reports_a_path_through_the_lung_and_says_where_there_is_none(ct):
     folder = phantom_series(2000, slices=60, rows=64)
     x, y, z = anatomy(2000).organs["lung nodule"]

@@ -95,6 +95,7 @@ def test_gas_outside_the_lung_is_gut(field):
     assert field.tissues[code].kind is TissueKind.GUT
 
 
+@pytest.mark.long("statistics")
 def test_a_structure_knows_better_and_the_first_before_the_others(chest):
     x, y, _ = places()
     liver = Structure.of("Liver_1", np.hypot(x - 100.0, y - 70.0) < 20.0, chest)
@@ -126,6 +127,7 @@ def test_names_say_what_a_structure_is(chest):
     assert told("x", StructureKind.BONE)[0] == "bone"
 
 
+@pytest.mark.long("statistics")
 def test_without_bone_lung_or_body_a_line_says_so():
     x, y, _ = places()
     soft = painted(np.full(SIZE[::-1], -1000.0), np.hypot(x - 80.0, y - 68.0) - 50.0, 50.0)
@@ -136,6 +138,7 @@ def test_without_bone_lung_or_body_a_line_says_so():
     assert any("there is no body" in note for note in notes)
 
 
+@pytest.mark.long("statistics")
 def test_a_ct_smaller_than_the_reach_says_what_is_unknown(chest):
     field = make(chest, entry_mm=(80.0, 13.0, 45.0), reach_mm=100.0)
     assert any("what lies beyond is unknown" in note for note in field.notes)
@@ -190,6 +193,7 @@ def test_what_was_made_once_is_read_again(chest, monkeypatch, tmp_path):
     assert field_of(chest, spacing_mm=2.0).digest == first.digest
 
 
+@pytest.mark.long("statistics")
 def test_a_sheared_or_turned_ct_is_labelled_in_its_own_place():
     turn = np.diag([*SPACING, 1.0])
     c, s = np.cos(0.4), np.sin(0.4)

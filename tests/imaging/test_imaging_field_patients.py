@@ -159,6 +159,7 @@ def check(seeds, count):
     return share
 
 
+@pytest.mark.long("statistics")
 def test_bent_needles_meet_what_the_recipe_says_within_half_a_millimetre():
     assert check((1,), 40) >= 0.95
 

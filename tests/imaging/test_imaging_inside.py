@@ -21,6 +21,7 @@ def sampled(mask, start, end):
     return float((share >= 0.5 - 1e-9).mean())
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seed", range(6))
 def test_the_length_inside_any_mask_is_that_of_dense_sampling(seed):
     rng = np.random.default_rng(seed)

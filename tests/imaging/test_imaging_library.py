@@ -114,6 +114,7 @@ def test_a_series_that_opens_on_request_is_taken_in_on_request(tmp_path):
     assert [one.plane for one in after.slices] == [one.plane for one in before.slices]
 
 
+@pytest.mark.long("journey")
 def test_what_a_pacs_gave_is_kept_aside_when_it_opens_only_on_request(tmp_path):
     UNEVEN.write(tmp_path / "stored")
     with FakePacs(tmp_path / "stored") as pacs:

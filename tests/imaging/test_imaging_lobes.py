@@ -31,6 +31,7 @@ def place(patient, points):
     return organs.place_of(patient, *np.asarray(points, float).T)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seed", BEFORE)
 def test_patients_of_smaller_seeds_are_the_same_to_the_last_bit(seed):
     scan, slices = Scan(make_patient(seed), 96, 4.0), hashlib.sha256()
@@ -42,6 +43,7 @@ def test_patients_of_smaller_seeds_are_the_same_to_the_last_bit(seed):
     assert (slices.hexdigest()[:16], field.digest[:16]) == BEFORE[seed]
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seed", [2000, 2001, 2005])
 def test_the_nodule_lies_in_the_lower_lobe_clear_of_every_fissure(seed):
     patient = make_patient(seed)
@@ -51,6 +53,7 @@ def test_the_nodule_lies_in_the_lower_lobe_clear_of_every_fissure(seed):
     assert radius + 3.0 < fissures(patient).away(at)[0] < radius + 13.0
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seed", [2000, 2003])
 def test_vessels_and_bronchi_keep_to_one_lobe_and_bronchi_end_at_a_radius(seed):
     patient = make_patient(seed)
@@ -78,6 +81,7 @@ def test_emphysema_lies_in_the_scan_clear_of_nodule_and_fissures():
     assert away.min() > 5.0
 
 
+@pytest.mark.long("statistics")
 def test_the_ct_shows_dark_emphysema_thin_fissures_and_bronchi_with_a_lumen():
     patient = make_patient(2000)
     scan, scale = Scan(patient, 512, 0.75), np.array(patient.scale)
@@ -108,6 +112,7 @@ def test_the_ct_shows_dark_emphysema_thin_fissures_and_bronchi_with_a_lumen():
     assert around(wide[:3]).max() > -650.0
 
 
+@pytest.mark.long("statistics")
 def test_the_rib_shields_the_artery_at_3_and_6_cm_as_often_as_is_published():
     """Helm et al. 2013, doi 10.1378/chest.12-1285: 17 % at 3 cm, 97 % at 6 cm."""
     shielded = {30.0: [], 60.0: []}
@@ -133,6 +138,7 @@ def test_the_rib_shields_the_artery_at_3_and_6_cm_as_often_as_is_published():
     assert np.mean(shielded[60.0]) == pytest.approx(0.97, abs=0.02)
 
 
+@pytest.mark.long("statistics")
 def test_the_field_has_lobes_emphysema_bronchi_and_intercostal_vessels_where_the_recipe_has_them():
     recipe, rng = RecipePoints(2000), np.random.default_rng(0)
     affine = np.eye(4)

@@ -33,6 +33,7 @@ def noise(kind: type = np.int16) -> Volume:
     return volume_of(np.random.default_rng(2).integers(-1000, 1500, (12, 24, 30)).astype(kind))
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("kind", [np.int16, np.float32])
 def test_the_compiled_slice_is_the_numpy_interpolation(way: Interpolation, kind: type) -> None:

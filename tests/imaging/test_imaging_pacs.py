@@ -69,6 +69,7 @@ def test_studies_and_series_are_found(stored):
         assert pacs.asked[0].PatientID == "SECRET*"
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_series_enters_the_library_de_identified(stored, way):
     with FakePacs(stored) as pacs:
@@ -81,6 +82,7 @@ def test_a_series_enters_the_library_de_identified(stored, way):
     assert not incoming(settings).folder.exists()
 
 
+@pytest.mark.long("journey")
 def test_progress_counts_the_pictures(stored):
     told = []
     with FakePacs(stored) as pacs:
@@ -122,6 +124,7 @@ def test_a_failure_is_said_in_words(stored, ill, words):
             ask(*[Query(name="S*")] * (ill == "find fails"))
 
 
+@pytest.mark.long("journey")
 def test_too_many_matches_are_refused(stored):
     with FakePacs(stored, "many") as pacs, pytest.raises(PacsError, match="more than 200"):
         Pacs(pacs.settings()).find_studies(Query(name="*"))
@@ -133,6 +136,7 @@ def test_an_answer_without_what_was_asked_for_is_empty_not_a_crash(stored):
     assert study.uid == ""
 
 
+@pytest.mark.long("journey")
 def test_nobody_there_a_wrong_name_and_something_else_there_are_told_apart():
     settings = PacsSettings(name="p", host="127.0.0.1", port=free_port(), title="X", timeout_s=1)
     with pytest.raises(PacsUnreachableError, match="refused"):
@@ -188,6 +192,7 @@ def test_a_stall_in_the_middle_ends_in_time_and_is_resumed(stored):
         assert incoming(settings).count() == 2
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_picture_of_another_series_is_refused_and_nothing_is_kept(stored, way):
     with FakePacs(stored, "other series") as pacs:
@@ -198,6 +203,7 @@ def test_a_picture_of_another_series_is_refused_and_nothing_is_kept(stored, way)
         assert not incoming(settings).folder.exists()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/pacs.md: refused at once; all of it is deleted")
 @pytest.mark.parametrize("way", ["get", "move"])
 @pytest.mark.parametrize(
@@ -263,6 +269,7 @@ def test_an_unknown_series_is_said(stored):
             fetch(pacs.settings())
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("ill", ["", "stalls"])
 def test_a_cancel_ends_at_once_even_in_silence_and_is_resumed(stored, ill):
     with FakePacs(stored, ill) as pacs:
@@ -291,6 +298,7 @@ def test_what_was_never_finished_is_deleted_after_a_day(stored):
     assert not incoming(settings).folder.exists()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/pacs.md: names are never logged or stored, and not in the JSON")
 def test_no_patient_reaches_the_log(stored, caplog):
     caplog.set_level(logging.DEBUG)

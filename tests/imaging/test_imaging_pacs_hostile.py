@@ -107,6 +107,7 @@ def send(pacs: FakePacs, pictures: list[Dataset], address: str = STRANGER) -> li
     return found
 
 
+@pytest.mark.long("journey")
 def test_a_stranger_who_knows_both_titles_replaces_no_picture(stored: Path) -> None:
     answers: list[int | None] = []
     pictures = [forged(path) for path in sorted(stored.iterdir())]
@@ -116,6 +117,7 @@ def test_a_stranger_who_knows_both_titles_replaces_no_picture(stored: Path) -> N
     np.testing.assert_array_equal(load_ct(stored).hu, load_ct(imported.entry.folder).hu)
 
 
+@pytest.mark.long("journey")
 def test_a_refusal_names_the_address_and_what_to_do(stored: Path) -> None:
     pictures = [pydicom.dcmread(path) for path in sorted(stored.iterdir())]
     with Meddling(stored, lambda pacs: send(pacs, pictures), "forgets") as pacs:
@@ -124,6 +126,7 @@ def test_a_refusal_names_the_address_and_what_to_do(stored: Path) -> None:
             fetch(pacs.settings(retrieve="move"))
 
 
+@pytest.mark.long("journey")
 def test_an_address_that_is_listed_may_send(stored: Path) -> None:
     answers: list[int | None] = []
     pictures = [pydicom.dcmread(path) for path in sorted(stored.iterdir())]
@@ -133,6 +136,7 @@ def test_an_address_that_is_listed_may_send(stored: Path) -> None:
     assert imported.entry.files == 5
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_picture_that_has_come_is_never_written_over(stored: Path, way: str) -> None:
     with FakePacs(stored) as pacs:
@@ -143,6 +147,7 @@ def test_a_picture_that_has_come_is_never_written_over(stored: Path, way: str) -
         assert nothing_is_left(settings)
 
 
+@pytest.mark.long("journey")
 def test_thirty_thousand_pictures_that_nobody_listed_end_with_the_first(stored: Path) -> None:
     class Flooding(FakePacs):
         def _send(self, event):
@@ -323,6 +328,7 @@ class Large(FakePacs):
         return copy
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_picture_larger_than_any_is_refused_while_it_comes(
     stored: Path, way: str, monkeypatch: pytest.MonkeyPatch

@@ -77,6 +77,7 @@ def files(folder):  # noqa: F811
     return sorted(folder.iterdir())
 
 
+@pytest.mark.long("journey")
 def test_all_are_taken_as_they_are(files):
     with Archive(0x0000, 0xB000, 0x0111) as archive:
         assert store(archive.settings(), files) == 4

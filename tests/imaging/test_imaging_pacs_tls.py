@@ -77,6 +77,7 @@ def test_an_archive_with_a_certificate_of_somebody_else_is_refused(encrypted):
         Pacs(settings).echo()
 
 
+@pytest.mark.long("journey")
 def test_a_certificate_for_another_host_is_refused_unless_that_is_asked_for(stored):
     with FakePacs(stored, tls=contexts(wants_ours=False)) as pacs:
         settings = pacs.settings(tls=TlsSettings(authority=file("authority.pem")), host="127.0.0.2")
@@ -86,6 +87,7 @@ def test_a_certificate_for_another_host_is_refused_unless_that_is_asked_for(stor
         Pacs(pacs.settings(tls=tls, host="127.0.0.2")).echo()
 
 
+@pytest.mark.long("journey")
 def test_a_plain_archive_asked_with_tls_and_the_other_way_round_are_told(stored, encrypted):
     with FakePacs(stored) as plain:
         settings = plain.settings(tls=TlsSettings(**OURS), timeout_s=2.0)
@@ -121,6 +123,7 @@ def test_an_archive_that_wants_our_certificate_and_gets_none_is_told(encrypted):
         Pacs(settings).echo()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
@@ -143,6 +146,7 @@ def test_a_file_that_cannot_be_used_is_named(encrypted, changed, words):
         Pacs(encrypted.settings(tls=tls)).echo()
 
 
+@pytest.mark.long("journey")
 def test_a_move_without_a_certificate_of_our_own_is_refused_with_the_remedy(stored):
     with FakePacs(stored, tls=contexts(wants_ours=False)) as pacs:
         tls = TlsSettings(authority=file("authority.pem"))
@@ -152,6 +156,7 @@ def test_a_move_without_a_certificate_of_our_own_is_refused_with_the_remedy(stor
     assert CtLibrary().entries() == ()
 
 
+@pytest.mark.long("journey")
 def test_pictures_come_to_the_address_that_leads_to_the_archive(stored):
     with FakePacs(stored) as pacs:
         assert own_address(pacs.settings(own_host="")) == "127.0.0.1"
@@ -160,6 +165,7 @@ def test_pictures_come_to_the_address_that_leads_to_the_archive(stored):
         assert take(Pacs(settings), "2.25.1", "2.25.1000", CtLibrary(), Progress()).entry.files == 5
 
 
+@pytest.mark.long("journey")
 def test_the_command_line_adds_an_encrypted_archive_with_whole_paths(encrypted, monkeypatch):
     monkeypatch.chdir(CERTIFICATES)
     said = CliRunner().invoke(

@@ -216,6 +216,7 @@ def retrieved(settings):
     return incoming
 
 
+@pytest.mark.long("journey")
 def test_pages_that_are_shorter_than_asked_are_all_read(server):
     assert retrieved(settings_of(server.url)).count() == 4
     starts = [query["offset"][0] for path, query, _ in server.asked if path == server.place]

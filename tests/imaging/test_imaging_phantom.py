@@ -55,6 +55,7 @@ def test_only_patients_from_seed_1000_on_have_a_nodule_which_lies_in_the_lung():
         )
 
 
+@pytest.mark.long("statistics")
 def test_a_nodule_changes_nothing_but_its_own_place():
     class Without(Patient):
         nodule = None
@@ -78,6 +79,7 @@ def test_it_is_made_once(small_phantom):
     assert {path: path.stat().st_mtime_ns for path in small_phantom.iterdir()} == before
 
 
+@pytest.mark.long("statistics")
 def test_what_an_earlier_version_made_is_cleared_away(tmp_path, monkeypatch):
     monkeypatch.setenv("ACUS_CACHE", str(tmp_path))
     old = tmp_path / "phantom" / "seed1-3x32-0123456789"
@@ -89,6 +91,7 @@ def test_what_an_earlier_version_made_is_cleared_away(tmp_path, monkeypatch):
     assert other.exists()
 
 
+@pytest.mark.long("statistics")
 def test_a_cancelled_phantom_leaves_nothing_behind(tmp_path, monkeypatch):
     monkeypatch.setenv("ACUS_CACHE", str(tmp_path))
     progress = Progress(lambda fraction, text: progress.cancel() if fraction > 0.3 else None)
@@ -98,6 +101,7 @@ def test_a_cancelled_phantom_leaves_nothing_behind(tmp_path, monkeypatch):
     assert len(list(phantom_series(1, slices=8, rows=32).iterdir())) == 8
 
 
+@pytest.mark.long("statistics")
 def test_the_same_seed_gives_the_same_patient_and_another_seed_another(tmp_path, monkeypatch):
     def content(cache: str, seed: int) -> list[bytes]:
         monkeypatch.setenv("ACUS_CACHE", str(tmp_path / cache))

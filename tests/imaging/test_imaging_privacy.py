@@ -432,6 +432,7 @@ def test_pseudonyms_need_the_key_and_a_lost_key_gives_new_ones(tmp_path):
         pseudonym("SECRET-ID", "2.25.1")
 
 
+@pytest.mark.long("journey")
 def test_compressed_big_endian_and_deflated_files_keep_their_pixels_bit_for_bit(
     tmp_path, shared_data
 ):
@@ -481,6 +482,7 @@ def test_a_full_disk_leaves_nothing(tmp_path, monkeypatch):
     assert nothing_left()
 
 
+@pytest.mark.long("journey")
 def test_a_disk_that_fills_in_the_middle_leaves_nothing(tmp_path, monkeypatch):
     series = series_of(tmp_path / "in")
     worker = ImagingWorker(1, "tests.imaging.full_disk_child")
@@ -491,6 +493,7 @@ def test_a_disk_that_fills_in_the_middle_leaves_nothing(tmp_path, monkeypatch):
     assert nothing_left()
 
 
+@pytest.mark.long("journey")
 def test_a_file_that_the_system_cuts_short_is_told_in_its_words_and_nothing_is_left(tmp_path):
     Slices(shape=(200, 200)).write(tmp_path / "in")
     done = subprocess.run(
@@ -503,6 +506,7 @@ def test_a_file_that_the_system_cuts_short_is_told_in_its_words_and_nothing_is_l
     assert nothing_left()
 
 
+@pytest.mark.long("journey")
 def test_a_file_that_crashes_its_reader_ends_the_import_and_leaves_nothing(tmp_path, monkeypatch):
     series = series_of(tmp_path / "in")
     worker = ImagingWorker(1, "tests.imaging.crashing_child")
@@ -560,6 +564,7 @@ CtLibrary().import_series(scan_folder(sys.argv[1]).series[0], progress=Progress(
 """
 
 
+@pytest.mark.long("journey")
 def test_a_killed_import_is_swept_at_the_next_look_and_a_living_one_is_not(tmp_path):
     Slices().write(tmp_path / "in")
     done = subprocess.run([sys.executable, "-c", KILLED, str(tmp_path / "in")], check=False)

@@ -116,6 +116,7 @@ def test_a_name_in_a_faulty_element_reaches_no_log_and_no_message(folder, tmp_pa
     assert told == []
 
 
+@pytest.mark.long("journey")
 def test_packages_that_are_loaded_later_are_kept_quiet_too(folder):
     program = (
         "import logging, sys; logging.basicConfig(level=0); import app.imaging;"

@@ -162,6 +162,7 @@ def test_the_volume_is_read_only_and_carries_no_name(tmp_path):
 REFERENCES = ["ct_chest_lidc0314", "ct_phantom_study/S2010"]
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", REFERENCES)
 def test_real_series_agree_with_the_reference_bit_by_bit(shared_data, name):
     reference = json.loads((shared_data / "reference.json").read_text())[name]
@@ -175,6 +176,7 @@ def test_real_series_agree_with_the_reference_bit_by_bit(shared_data, name):
     np.testing.assert_array_equal(volume.direction.ravel(), reference["direction"])
 
 
+@pytest.mark.long("journey")
 def test_lossless_encodings_decode_to_one_array(shared_data, tmp_path):
     lossless = ["BigEndianExplicit", "Deflated", "JPEG2000LosslessOnly", "JPEGLSLossless",
                 "JPEGProcess14SV1", "JPEGProcess14T", "LittleEndianExplicit",

@@ -33,6 +33,7 @@ def test_turning_keeps_the_place_of_the_point_that_it_turns_about(a, b, c, angle
     assert_allclose(again.point([x, y, z]), before, atol=1e-9)
 
 
+@pytest.mark.long("journey")
 def test_a_frame_that_is_turned_ten_thousand_times_stays_square():
     frame = AXIAL
     for _ in range(10_000):

@@ -49,6 +49,7 @@ def test_the_page_on_reading_names_every_remedy_by_its_word_and_by_its_button():
         assert f"*{one.title}*" in page
 
 
+@pytest.mark.long("journey")
 def test_one_that_fails_to_say_is_not_offered_and_the_series_has_a_note_of_it(save, tmp_path):
     path = save("eager", "return 1 / 0")
     UNEVEN.write(tmp_path / "ct")
@@ -89,6 +90,7 @@ def test_a_volume_of_somebody_s_remedy_says_by_which_it_was_read(save, tmp_path)
     assert CtFacts.of_metadata(facts.metadata()) == facts
 
 
+@pytest.mark.long("journey")
 def test_one_that_is_not_offered_is_refused_for_a_series_that_cannot_be_read_as_it_is(
     save, tmp_path
 ):

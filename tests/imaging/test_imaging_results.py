@@ -94,11 +94,13 @@ def validated(path):
     return [line for line in said.stderr.splitlines() if line.startswith("Error")]
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", ["seg.dcm", "rtstruct.dcm", "gsps.dcm", "sr.dcm"])
 def test_another_validator_finds_no_error(folder, name):
     assert validated(folder / name) == []
 
 
+@pytest.mark.long("journey")
 def test_the_validator_finds_what_is_wrong(folder, tmp_path):
     broken = pydicom.dcmread(folder / "rtstruct.dcm")
     del broken.StructureSetLabel
@@ -106,6 +108,7 @@ def test_the_validator_finds_what_is_wrong(folder, tmp_path):
     assert any("StructureSetLabel" in line for line in validated(tmp_path / "broken.dcm"))
 
 
+@pytest.mark.long("journey")
 def test_all_belong_to_the_study_and_the_patient_of_the_ct_and_name_nobody(folder, volume):
     source = pydicom.dcmread(volume.series.slices[0].path)
     found = [pydicom.dcmread(path) for path in sorted(folder.iterdir())]
@@ -131,6 +134,7 @@ def place(path, row, column):
     return file.ImagePositionPatient + across * between_columns * column + down * between_rows * row
 
 
+@pytest.mark.long("journey")
 def test_the_segmentation_is_the_masks_by_highdicoms_reader(folder, volume, structures):
     found = highdicom.seg.segread(folder / "seg.dcm")
     assert [s.SegmentLabel for s in found.SegmentSequence] == [s.name for s in structures]
@@ -152,6 +156,7 @@ def contours(folder, number):
         yield [i.ReferencedSOPInstanceUID for i in images], item.ContourGeometricType, points
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("number", [0, 1])
 def test_contours_run_within_half_a_voxel_of_the_labels_boundary(
     folder, volume, structures, number
@@ -177,6 +182,7 @@ def test_contours_run_within_half_a_voxel_of_the_labels_boundary(
     assert seen == set(np.flatnonzero(mask.any(axis=(1, 2))).tolist())
 
 
+@pytest.mark.long("journey")
 def test_contours_filled_are_the_labels_again(folder, volume, structures):
     found = read_structures(folder / "rtstruct.dcm", volume)
     assert [one.name for one in found] == [one.name for one in structures]
@@ -197,6 +203,7 @@ def test_the_area_of_a_line_with_keyholes_is_that_of_the_label_without_its_holes
     assert areas == pytest.approx([30 * 40 - 0.5 - holes + 3 * 0.5, 3 * 10 - 0.5])
 
 
+@pytest.mark.long("journey")
 def test_points_of_plan_and_tip_are_the_attempts_in_each_object(folder, told, volume):
     found = pydicom.dcmread(folder / "rtstruct.dcm")
     names = [one.ROIName for one in found.StructureSetROISequence]
@@ -228,6 +235,7 @@ def test_points_of_plan_and_tip_are_the_attempts_in_each_object(folder, told, vo
             assert abs(off @ normal) <= 1.0 + 1e-6  # half of the slices' distance
 
 
+@pytest.mark.long("journey")
 def test_the_path_is_drawn_whole_across_its_slices(folder, told, volume):
     drawn = pydicom.dcmread(folder / "gsps.dcm")
     lines = [
@@ -247,6 +255,7 @@ def test_a_path_in_one_slice_stands_on_that_slice_alone(k):
     assert (part is not None) == (k == 2)
 
 
+@pytest.mark.long("journey")
 def test_the_report_holds_values_units_and_verdict_by_code(folder, told):
     report = highdicom.sr.srread(folder / "sr.dcm")
     template = pydicom.dcmread(folder / "sr.dcm").ContentTemplateSequence[0]
@@ -268,6 +277,7 @@ def test_the_report_holds_values_units_and_verdict_by_code(folder, told):
     assert report.CodingSchemeIdentificationSequence[0].CodingSchemeDesignator == "99ACUS"
 
 
+@pytest.mark.long("journey")
 def test_written_twice_they_are_the_same_and_another_attempt_is_another(
     folder, volume, structures, told, tmp_path
 ):
@@ -280,6 +290,7 @@ def test_written_twice_they_are_the_same_and_another_attempt_is_another(
     assert len(set(uids)) == 7
 
 
+@pytest.mark.long("journey")
 def test_without_a_tip_without_a_score_and_off_the_ct(volume, told, tmp_path):
     bare = replace(told, tip_mm=None, measured=(), passed=None)
     for path in write_results(tmp_path / "bare", bare, volume, StructureSet()):
@@ -290,6 +301,7 @@ def test_without_a_tip_without_a_score_and_off_the_ct(volume, told, tmp_path):
     assert not (tmp_path / "away").exists()
 
 
+@pytest.mark.long("journey")
 def test_a_ct_that_may_name_its_patient_is_refused(told, tmp_path):
     named = written(tmp_path / "named", PatientIdentityRemoved=None)
     with pytest.raises(ResultsError, match="was not de-identified"):
@@ -297,6 +309,7 @@ def test_a_ct_that_may_name_its_patient_is_refused(told, tmp_path):
     assert not [path for path in tmp_path.iterdir() if "out" in path.name]
 
 
+@pytest.mark.long("journey")
 def test_a_ct_that_lacks_a_tag_has_gone_or_is_no_files_is_refused(told, tmp_path, volume):
     lacking = written(tmp_path / "lacking", StudyID=None)
     with pytest.raises(ResultsError, match=r"lacks what (gsps|sr)\.dcm has to repeat"):
@@ -314,6 +327,7 @@ def test_a_ct_that_lacks_a_tag_has_gone_or_is_no_files_is_refused(told, tmp_path
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long("journey")
 def test_a_cancel_leaves_nothing(told, volume, structures, tmp_path):
     progress = Progress()
     progress.cancel()
@@ -322,6 +336,7 @@ def test_a_cancel_leaves_nothing(told, volume, structures, tmp_path):
     assert not [path for path in tmp_path.iterdir() if "out" in path.name]
 
 
+@pytest.mark.long("journey")
 def test_without_the_extra_its_name_is_told(told, volume, tmp_path, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "highdicom", None)
     from app.imaging.results.files import write_objects

@@ -179,6 +179,7 @@ def test_a_spacing_that_contradicts_the_frames_is_told(tmp_path, volume):
     assert read(path, volume).notes == ()
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("shear", "angle"), [(0.25, 0.0), (0.3, 20.0), (-0.5, 0.0)])
 def test_what_is_written_for_a_tilted_ct_comes_back(tmp_path, shear, angle):
     volume = ct(tmp_path / "ct", shear, angle)
@@ -270,6 +271,7 @@ def ball(volume: Volume, radius: float, centre=None) -> np.ndarray:
     return (np.linalg.norm(at - middle, axis=1) <= radius).reshape(volume.hu.shape)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("step", [0.5, 1.0, 3.0, 4.0])
 @pytest.mark.parametrize("off", [0.0, 0.5, 0.37])
 @pytest.mark.parametrize("measures", [{"SliceThickness": 9.0}, {"SpacingBetweenSlices": 0.0}])

@@ -65,6 +65,7 @@ def test_a_side_that_lies_up_carries_the_grid(known) -> None:
     np.testing.assert_allclose(point[1:], (5.0, 60.0), atol=0.05)
 
 
+@pytest.mark.long("journey")
 def test_a_scan_shows_a_dot_of_metal_on_the_skin_for_each_line(known) -> None:
     volume, grid = known
     order = ScanOrder(60.0, 3, 5.0)

@@ -28,6 +28,7 @@ def slanted(volume):
     return Plane.centred(volume.lps_mm([14, 12, 10]), right, down, 0.5, 15, 11)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", WAYS)
 def test_a_slab_is_what_its_samples_make(volume, way):
     plane, thickness = slanted(volume), 4.0

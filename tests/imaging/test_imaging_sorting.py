@@ -152,6 +152,7 @@ def test_one_slice_of_another_frame_of_reference_is_set_apart(tmp_path):
 # --- passes that mesh to an even stack
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("tag", "values"),
     [

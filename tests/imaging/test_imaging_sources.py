@@ -110,6 +110,7 @@ def test_a_broken_or_cancelled_archive_leaves_nothing(tmp_path, temporary, keep)
     assert os.listdir(temporary) == []
 
 
+@pytest.mark.long("journey")
 def test_a_full_disk_while_unpacking_leaves_nothing(tmp_path, temporary, monkeypatch):
     Slices().write(tmp_path / "a")
     path = zipped(tmp_path / "a", tmp_path / "a.zip")
@@ -122,6 +123,7 @@ def test_a_full_disk_while_unpacking_leaves_nothing(tmp_path, temporary, monkeyp
     assert os.listdir(temporary) == []
 
 
+@pytest.mark.long("journey")
 def test_what_a_killed_program_unpacked_is_swept_away_and_nobody_elses(tmp_path, temporary):
     program = (
         "import sys, time; from pathlib import Path; from app.core.progress import Progress;"

@@ -61,6 +61,7 @@ def same(one: StructureSet, other: StructureSet) -> None:
         assert np.abs(np.subtract(a.colour, b.colour)).max() <= 2
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", ["x.seg.nrrd", "x.dcm"])
 def test_structures_come_back_from_a_file_as_they_went_in(volume, tmp_path, name):
     structures = two(volume)
@@ -364,6 +365,7 @@ def test_without_the_extra_its_name_is_told(volume, tmp_path, monkeypatch):
         read_nrrd(tmp_path / "x.seg.nrrd")
 
 
+@pytest.mark.long("journey")
 def test_a_file_of_structures_is_read_in_the_worker_and_loads_nothing_here(volume, tmp_path):
     write_structures(tmp_path / "x.seg.nrrd", two(volume), volume)
     program = (

@@ -108,6 +108,7 @@ def test_names_in_a_set_are_unique_and_unknown_ones_are_told_with_those_there_ar
 
 
 # --- distance ----------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("turn", [None, turned()])
 @pytest.mark.parametrize("spacing", [(0.8, 0.8, 2.0), (0.7, 0.7, 0.7), (1.0, 1.0, 5.0)])
 def test_the_distance_of_a_ball_is_true_to_the_stated_accuracy(spacing, turn):
@@ -132,6 +133,7 @@ def test_the_distance_goes_on_beyond_the_grid_without_a_jump():
     assert abs(field.at(along)[-1] - 69.9) < 1.0
 
 
+@pytest.mark.long("journey")
 def test_a_line_past_and_one_through_a_ball():
     volume = made((64, 64, 64), (0.8, 0.8, 0.8))
     centre = middle(volume)
@@ -331,6 +333,7 @@ def test_a_grid_that_differs_only_in_the_order_of_its_axes_is_taken_voxel_for_vo
     assert placed.notes == ()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("spacing", [(0.4, 0.4, 0.5), (3.0, 3.0, 3.0), (1.0, 1.0, 1.0)])
 def test_another_grid_is_resampled_to_the_same_place_and_volume(spacing):
     volume = made((64, 64, 40), (0.9, 0.9, 2.5))

@@ -57,6 +57,7 @@ def test_known_slabs_are_found_at_any_angle_and_in_noise(tilt: float, noise: flo
     assert found[1] == SKIN_MM
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=40)
 @given(
     st.lists(
@@ -134,6 +135,7 @@ def test_a_phantoms_own_path_leads_through_its_wall_into_the_liver(seed: int, no
     assert 8.0 < runs[2].thickness_mm < 20.0
 
 
+@pytest.mark.long("statistics")
 def test_a_real_chest_has_its_ribs_and_lungs(shared_data: Path) -> None:
     volume = load_ct(shared_data / "ct_chest_lidc0314")
     body = find_body(volume)

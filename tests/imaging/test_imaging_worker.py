@@ -80,6 +80,7 @@ def test_a_file_that_hangs_its_reader_is_given_up_after_two_seconds(hostile):
     assert time.monotonic() - begin < 60.0  # two of computing, and what a busy machine adds
 
 
+@pytest.mark.long("journey")
 def test_a_file_that_never_comes_is_given_up_too(hostile, monkeypatch):
     monkeypatch.setattr(limits, "LEAST_CLOCK_SECONDS", 1.0)
     monkeypatch.setattr(limits, "CLOCK_FACTOR", 0.1)
@@ -103,6 +104,7 @@ def test_a_file_that_takes_long_is_told_to_whoever_waits(hostile):
     assert "2 of 2: 1 s so far" in told
 
 
+@pytest.mark.long("journey")
 def test_many_hostile_files_in_a_row_cost_one_child_each(hostile):
     found = reasons(hostile, *["crash", "a"] * 4)
     assert found[1::2] == ["read a"] * 4
@@ -155,6 +157,7 @@ def test_a_child_that_does_not_come_up_is_an_error_that_says_so():
     worker.close()
 
 
+@pytest.mark.long("journey")
 def test_the_child_ends_when_the_program_is_gone():
     program = (
         "import time; from app.imaging.worker.process import Child; c = Child();"

@@ -33,6 +33,7 @@ def test_decoders_can_be_loaded_before_any_file_comes():
         worker.close()
 
 
+@pytest.mark.long("journey")
 def test_two_children_decode_at_once_what_takes_long(tmp_path, monkeypatch):
     files = Slices(offsets=tuple(float(n) for n in range(20))).write(tmp_path)
     for file in files:

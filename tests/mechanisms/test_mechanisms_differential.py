@@ -119,6 +119,7 @@ def _closure(q, links, errors, distances):
         errors[k] = np.hypot(x2 - x, y2 - y)
 
 
+@pytest.mark.long("statistics")
 def test_a_million_random_configurations_close():
     """Forward, inverse in the configuration's own working mode, forward: all turns of both motors.
 

@@ -62,6 +62,7 @@ def test_accelerations_are_those_of_mujocos_tree_with_rigid_constraints():
         assert slide == pytest.approx(load / PROFILE.inertia.needle_mass, rel=3e-9)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("needle", [True, False], ids=["with needle", "bare links"])
 def test_a_free_swing_of_two_seconds_follows_mujoco_to_a_millionth(needle):
     """RK4 at 0.1 ms, constraint stiffness 1e7 1/s²; ours with DOP853 at 1e-12.

@@ -180,6 +180,7 @@ def test_the_assumed_tilts_cover_the_cone_in_both_its_readings(half_deg):
     assert worst == pytest.approx(1.7 if half_deg == 20.0 else 3.7, abs=0.3)
 
 
+@pytest.mark.long("statistics")
 @both
 def test_the_nearest_direction_is_reached_and_none_is_nearer(geometry):
     rng = np.random.default_rng(7)

@@ -241,6 +241,7 @@ def test_force_at_the_hub_and_torques_are_one_map_by_virtual_work():
         assert hub_force(rates, load, l_out) == pytest.approx(across, abs=1e-12)
 
 
+@pytest.mark.long("statistics")
 def test_the_force_limit_is_felt_in_every_direction_and_no_more_in_the_worst():
     for t in poses(10, seed=10):
         beta, l_out = inverse(PAPER, t), 0.15
@@ -258,6 +259,7 @@ def test_the_force_limit_is_felt_in_every_direction_and_no_more_in_the_worst():
         assert any(missing for share, missing in short if share > 1.0)
 
 
+@pytest.mark.long("statistics")
 @both
 def test_compliance_of_the_remote_centre_is_the_energy_of_its_bars_by_quadrature(geometry):
     """One pantograph alone stands for a force shared by nobody: the other's bars made stiff."""

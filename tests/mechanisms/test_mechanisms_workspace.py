@@ -45,6 +45,7 @@ def test_the_workspace_is_that_of_the_independent_table(
     assert found.torque == pytest.approx(0.596545, abs=1e-6)
 
 
+@pytest.mark.long("statistics")
 def test_the_largest_torque_is_found_between_the_rings_of_the_grid():
     """An optimiser of its own, with angles and Jacobian by the public functions, agrees."""
 

@@ -86,6 +86,7 @@ def covered_by_slices(lesion, balls):
     return quad(area, low, high, points=breaks or None, limit=400, epsabs=1e-4)[0]
 
 
+@pytest.mark.long("statistics")
 def test_a_balls_share_of_a_lesion_is_that_of_the_lens_formula():
     random = np.random.default_rng(1)
     for _ in range(12):
@@ -98,6 +99,7 @@ def test_a_balls_share_of_a_lesion_is_that_of_the_lens_formula():
         assert abs(covered - lens(lesion, zone)) < 1e-4 * lesion.volume_mm3
 
 
+@pytest.mark.long("statistics")
 def test_unions_of_two_and_three_balls_cover_what_an_integral_over_slices_says():
     random = np.random.default_rng(2)
     worst = 0.0
@@ -122,6 +124,7 @@ def test_the_integral_over_slices_is_itself_that_of_the_lens_formula():
     assert covered_by_slices(lesion, two) == pytest.approx(both, rel=1e-6)
 
 
+@pytest.mark.long("statistics")
 def test_what_spheroids_cover_is_what_random_places_say():
     random = np.random.default_rng(3)
     lesion = Zone(np.array([3.0, -4.0, 5.0]), np.array([1.0, 2.0, 0.5]), 15.0, 10.0)
@@ -144,6 +147,7 @@ def test_what_spheroids_cover_is_what_random_places_say():
     assert abs(covered / whole - share) < 4.0 * sd
 
 
+@pytest.mark.long("statistics")
 def test_the_depth_in_a_spheroid_is_the_distance_from_its_surface():
     random = np.random.default_rng(4)
     for halves in ((22.0, 15.0), (9.0, 14.0), (12.0, 12.0)):
@@ -170,6 +174,7 @@ def test_the_margin_of_a_ball_in_a_ball_is_the_difference_less_their_distance():
     assert float(short.min()) == pytest.approx(14.0 - 10.0 - 8.0, abs=0.01)
 
 
+@pytest.mark.long("statistics")
 def test_the_margin_in_a_union_is_what_brute_force_on_its_surface_says():
     random = np.random.default_rng(5)
     zones = [

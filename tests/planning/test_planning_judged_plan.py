@@ -63,6 +63,7 @@ def test_room_is_in_millimetres_whatever_the_voxels_are(spacing: float) -> None:
     assert plan.clear_mm == pytest.approx(6.0, abs=spacing)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("kind", [Kind.BONE, Kind.LUNG, Kind.VESSEL, Kind.GUT, Kind.HEART])
 def test_each_kind_that_no_needle_should_meet_is_kept_away_from(kind: TissueKind) -> None:
     plan = judge_plan(body((kind, "it", rod(9.0, 30.0, 3.0))), (0.0, 0.0, 0.0), TARGET)
@@ -105,6 +106,7 @@ def test_a_path_that_is_too_long_is_none() -> None:
         assert (plan.points == 0.0) is is_long
 
 
+@pytest.mark.long("statistics")
 def test_what_lies_nearer_costs_more_and_what_is_met_costs_all() -> None:
     points = [
         judge_plan(body((Kind.BONE, "rib", rod(away + 3.0, 5.0, 3.0))), (0, 0, 0), TARGET).points

@@ -88,6 +88,7 @@ def test_a_path_out_of_the_lung_and_in_again_crosses_three_pleurae():
     assert report.lung_mm == pytest.approx(57.0, abs=0.2)
 
 
+@pytest.mark.long("statistics")
 def test_vessel_nodule_and_bronchus_within_the_lung_cross_no_pleura():
     more = (
         (Kind.VESSEL, "lung vessel", rod(35.0, 0.0, 2.5)),
@@ -104,6 +105,7 @@ def test_vessel_nodule_and_bronchus_within_the_lung_cross_no_pleura():
     assert bronchus.diameter_mm == pytest.approx(4.0, abs=0.5)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("radius", [1.5, 2.0, 2.5, 3.0, 4.0])
 @pytest.mark.parametrize("aside", [0.0, 0.37])
 def test_a_tube_is_as_wide_as_it_is(radius, aside):
@@ -113,6 +115,7 @@ def test_a_tube_is_as_wide_as_it_is(radius, aside):
     assert diameter_mm(field, code, off) == pytest.approx(2.0 * radius, abs=0.5)
 
 
+@pytest.mark.long("statistics")
 def test_thin_vessels_are_not_named_and_wide_ones_beside_the_path_are_with_their_room():
     thin = (Kind.VESSEL, "lung vessel", rod(35.0, 0.0, 1.0))
     assert LungPaths(chest(thin)).report(ENTRY, TARGET).vessels == ()
@@ -123,6 +126,7 @@ def test_thin_vessels_are_not_named_and_wide_ones_beside_the_path_are_with_their
     assert LungPaths(chest(far)).report(ENTRY, TARGET).vessels == ()
 
 
+@pytest.mark.long("statistics")
 def test_ribs_and_intercostal_vessels_are_as_far_as_the_rods_say():
     report = LungPaths(chest(*RIBS, ARTERY, CANAL)).report(ENTRY, TARGET)
     assert report.rib_below_mm == pytest.approx(7.0, abs=0.3)
@@ -132,12 +136,14 @@ def test_ribs_and_intercostal_vessels_are_as_far_as_the_rods_say():
     assert report.intercostal_mm == pytest.approx(5.8, abs=0.3)
 
 
+@pytest.mark.long("statistics")
 def test_a_rib_that_is_met_is_0_away_and_the_other_keeps_its_distance():
     report = LungPaths(chest(*RIBS)).report((0.0, 0.0, 10.5), (0.0, 90.0, 10.5))
     assert report.rib_above_mm == 0.0
     assert report.rib_below_mm == pytest.approx(17.5, abs=0.5)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("x", "protects"), [(0.0, False), (9.0, False), (12.0, True)])
 def test_within_6_cm_of_the_spine_the_ribs_border_does_not_protect(x, protects):
     report = LungPaths(chest(*RIBS, CANAL)).report((x, 0.0, 0.0), (x, 90.0, 0.0))
@@ -145,6 +151,7 @@ def test_within_6_cm_of_the_spine_the_ribs_border_does_not_protect(x, protects):
     assert report.is_protected is protects
 
 
+@pytest.mark.long("statistics")
 def test_a_spine_that_nobody_named_is_found_by_its_thick_bone():
     bone = (Kind.BONE, "", rod(20.0, 0.0, 12.0, x=-45.0))
     field = chest(bone)
@@ -193,6 +200,7 @@ def test_a_path_that_misses_the_lung_is_one_line():
         LungPaths(bare).report((2, 30, 2), (2, 50, 2))
 
 
+@pytest.mark.long("statistics")
 def test_emphysema_is_by_its_label_else_by_the_values_of_the_ct():
     bulla = (Kind.LUNG, "emphysema", ball((0, 40, 0), 5.0))
     assert LungPaths(chest(bulla)).report(ENTRY, TARGET).emphysema_mm == pytest.approx(10, abs=0.3)
@@ -216,6 +224,7 @@ def test_the_nodule_that_values_take_for_a_vessel_is_neither_lung_nor_vessel():
     assert all(one.depth_mm < 86.0 for one in report.vessels)
 
 
+@pytest.mark.long("statistics")
 def test_it_reads_back_what_it_wrote():
     for field in (chest(*RIBS, ARTERY, CANAL), chest(lobes=False)):
         report = LungPaths(field).report(ENTRY, TARGET)

@@ -85,6 +85,7 @@ def check(seed, count):
     return right / count
 
 
+@pytest.mark.long("statistics")
 def test_random_paths_are_reported_as_the_recipe_has_them():
     assert check(2000, 25) >= 0.9
 

@@ -94,6 +94,7 @@ def test_paths_out_of_reach_or_too_long_are_blocked_with_their_reason(body, skin
     assert best(none) == ()
 
 
+@pytest.mark.long("statistics")
 def test_bone_blocks_and_a_structure_keeps_paths_away(skin):
     volume = cylinder()
     hu = volume.hu.copy()

@@ -135,6 +135,7 @@ def test_the_inflated_covariance_is_the_f_ellipsoid() -> None:
     assert ratio * chi_square_quantile(0.95, 3) == pytest.approx(3 * 4.757, rel=1e-3)  # F(3, 6)
 
 
+@pytest.mark.long("statistics")
 def test_unequal_covariances_are_carried_to_the_target() -> None:
     x, rng, trials = corners("twelve in a box"), np.random.default_rng(17), 3000
     roots = 1e-4 * rng.uniform(-1, 1, (12, 3, 3))
@@ -183,6 +184,7 @@ def test_one_wrong_point_is_named_with_its_distance() -> None:
         check.agreement(np.zeros(3))
 
 
+@pytest.mark.long("statistics")
 def test_good_points_are_not_blamed() -> None:
     plate = load_plate("stepped-plate")
     sd = plate.localisation_mm * MM / np.sqrt(3)
@@ -205,6 +207,7 @@ def test_a_check_says_how_far_the_cameras_frame_is_off() -> None:
     )
 
 
+@pytest.mark.long("statistics")
 def test_the_agreement_holds_in_95_of_100_checks() -> None:
     plate, target = load_plate("stepped-plate"), np.array([0.0, 0.16, 0.03])
     assert plate.place is not None

@@ -80,6 +80,7 @@ def test_the_notch_turns_clockwise_as_seen_from_the_hub() -> None:
             assert np.linalg.norm(side) == pytest.approx(1.0)
 
 
+@pytest.mark.long("statistics")
 def test_no_depth_of_the_outer_needle_holds_more_lesion_than_the_planned_one() -> None:
     field = patient()
     entry = np.array([CENTRE[0] + 1.5, 4.0, CENTRE[2] - 1.0])

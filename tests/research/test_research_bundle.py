@@ -129,6 +129,7 @@ def rewritten(path, out, changes, hashed=True):
     return out
 
 
+@pytest.mark.long("journey")
 def test_a_bundle_holds_no_pseudonym_name_key_or_date_of_the_station(here):
     files = contents(here.path)
     text = "\n".join(name + plain(name, data).decode() for name, data in files.items())
@@ -139,17 +140,20 @@ def test_a_bundle_holds_no_pseudonym_name_key_or_date_of_the_station(here):
     assert (here.done.participants, here.done.attempts, here.done.series) == (4, 8, 8)
 
 
+@pytest.mark.long("journey")
 def test_every_score_is_computed_again_from_its_series(here):
     found = check_bundle(here.path)
     assert found.problems == ()
     assert (found.scores, found.digest) == (8, here.done.digest)
 
 
+@pytest.mark.long("journey")
 def test_the_same_study_gives_the_same_bytes(here, tmp_path):
     write_bundle(here.study, here.people, here.records, tmp_path / "again.zip")
     assert (tmp_path / "again.zip").read_bytes() == here.path.read_bytes()
 
 
+@pytest.mark.long("journey")
 def test_scores_in_the_bundle_are_those_of_the_records(here):
     from app.session.store import computed
 
@@ -164,6 +168,7 @@ def test_scores_in_the_bundle_are_those_of_the_records(here):
 READ = {"text": str, "number": float, "whole": int, "yes_no": ("0", "1").index}
 
 
+@pytest.mark.long("journey")
 def test_every_table_is_read_by_its_codebook(here):
     files = contents(here.path)
     by_table = {}
@@ -183,6 +188,7 @@ def test_every_table_is_read_by_its_codebook(here):
     assert {row["metric"] for row in table(files, "metrics.csv")} <= known
 
 
+@pytest.mark.long("journey")
 def test_the_flow_counts_who_came_and_who_is_analysed(here):
     flow = {(r["stage"], r["arm"]): int(r["n"]) for r in table(contents(here.path), "consort.csv")}
     for stage in ("randomised", "began", "attended: pre", "attended: post", "analysed"):
@@ -190,6 +196,7 @@ def test_the_flow_counts_who_came_and_who_is_analysed(here):
     assert flow["left", "all"] == 0
 
 
+@pytest.mark.long("journey")
 @pytest.mark.skipif(shutil.which("Rscript") is None, reason="R (Debian's r-base-core) is not here")
 def test_r_reads_the_tables_as_they_are(here, tmp_path):
     with zipfile.ZipFile(here.path) as archive:
@@ -219,6 +226,7 @@ def test_r_reads_the_tables_as_they_are(here, tmp_path):
     assert float(done.stdout) == pytest.approx(sum(totals) / 8, rel=1e-12)
 
 
+@pytest.mark.long("journey")
 def test_a_file_that_was_changed_is_named(here, tmp_path):
     changed = rewritten(here.path, tmp_path / "c.zip", {"consort.csv": b"stage\n"}, hashed=False)
     assert check_bundle(changed).problems == (
@@ -228,6 +236,7 @@ def test_a_file_that_was_changed_is_named(here, tmp_path):
     )
 
 
+@pytest.mark.long("journey")
 def test_a_score_that_its_series_does_not_give_is_named_also_where_all_hashes_fit(here, tmp_path):
     files = contents(here.path)
     name = next(name for name in files if name.startswith("attempts/"))
@@ -239,6 +248,7 @@ def test_a_score_that_its_series_does_not_give_is_named_also_where_all_hashes_fi
     assert any("attempts.csv is another" in line for line in problems)
 
 
+@pytest.mark.long("journey")
 def test_a_series_that_was_changed_gives_another_score(here, tmp_path):
     files = contents(here.path)
     name = next(name for name in files if name.startswith("series/"))
@@ -250,6 +260,7 @@ def test_a_series_that_was_changed_gives_another_score(here, tmp_path):
     assert any("target_error" in line for line in problems)
 
 
+@pytest.mark.long("journey")
 def test_a_participant_in_another_arm_than_the_committed_list_gives_is_named(here, tmp_path):
     text = contents(here.path)["participants.csv"].decode()
     swapped = re.sub(
@@ -261,6 +272,7 @@ def test_a_participant_in_another_arm_than_the_committed_list_gives_is_named(her
     assert table_of_it == "parquet/participants.parquet is not what the tables hold"
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("harm", ["cut", "empty", "text", "none"])
 def test_what_is_no_bundle_is_refused_in_one_line(here, tmp_path, harm):
     path = tmp_path / "c.zip"
@@ -291,6 +303,7 @@ def test_a_kept_record_gives_its_score_again_from_series_and_document_alone(path
     assert again.time[0] == 0.0
 
 
+@pytest.mark.long("journey")
 def test_whatever_bytes_of_a_bundle_are_harmed_it_is_reported_or_refused(here, tmp_path):
     data, rng = here.path.read_bytes(), np.random.default_rng(8)
     path = tmp_path / "c.zip"
@@ -302,11 +315,13 @@ def test_whatever_bytes_of_a_bundle_are_harmed_it_is_reported_or_refused(here, t
             check_bundle(path)
 
 
+@pytest.mark.long("journey")
 def test_a_series_that_unpacks_to_more_than_one_may_be_is_refused(here, tmp_path, monkeypatch):
     monkeypatch.setattr("app.research.series._LARGEST", 1000)
     assert all("too large" in line for line in check_bundle(here.path).problems)
 
 
+@pytest.mark.long("journey")
 def test_odd_values_in_the_files_of_an_attempt_are_problems_and_no_crash(here, tmp_path):
     files = contents(here.path)
     name = next(name for name in files if name.startswith("attempts/"))
@@ -332,6 +347,7 @@ def fresh(monkeypatch, tmp_path):
     return tmp_path
 
 
+@pytest.mark.long("journey")
 def test_an_arm_without_students_and_a_blind_study_make_no_bundle(fresh):
     study, people = make_study(fresh, blind=True, names=("Ada",))
     with pytest.raises(ResearchError, match="lock the data first"):
@@ -342,6 +358,7 @@ def test_an_arm_without_students_and_a_blind_study_make_no_bundle(fresh):
     assert not (fresh / "b.zip").exists()
 
 
+@pytest.mark.long("journey")
 def test_a_reason_that_names_a_student_keeps_the_bundle_from_being_written(fresh):
     study, people = make_study(fresh)
     study.leave(people.find("Bob"), "quarrel with ADA", False, people)
@@ -350,6 +367,7 @@ def test_a_reason_that_names_a_student_keeps_the_bundle_from_being_written(fresh
     assert [path.name for path in fresh.glob("*b.zip*")] == []
 
 
+@pytest.mark.long("journey")
 def test_nothing_of_who_withdrew_the_data_or_was_erased_is_in_the_bundle(fresh, monkeypatch):
     study, people = make_study(fresh)
     records = fresh / "sessions"
@@ -366,6 +384,7 @@ def test_nothing_of_who_withdrew_the_data_or_was_erased_is_in_the_bundle(fresh, 
 
 
 # --- Parquet and figures --------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_parquet_holds_what_the_csv_files_hold_and_has_their_types(here):
     files = contents(here.path)
     attempts = pyarrow.parquet.read_table(io.BytesIO(files["parquet/attempts.parquet"]))
@@ -377,6 +396,7 @@ def test_parquet_holds_what_the_csv_files_hold_and_has_their_types(here):
     assert kinds == {"arm": "string", "day": "int64", "passed": "bool"}
 
 
+@pytest.mark.long("journey")
 def test_all_series_stand_in_one_parquet_file_to_the_last_digit(here):
     files = contents(here.path)
     series = pyarrow.parquet.read_table(io.BytesIO(files[SERIES_TABLE])).to_pydict()
@@ -391,12 +411,14 @@ def test_all_series_stand_in_one_parquet_file_to_the_last_digit(here):
     assert [repr(x) for x in series["tip_z_m"]] == [line[4] for line in lines]
 
 
+@pytest.mark.long("journey")
 def test_a_bundle_makes_its_tables_and_figures_again(here):
     report = check_bundle(here.path)
     assert (report.problems, report.notes) == ((), ())
     assert report.made_again == 7 + 2
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", ["parquet/attempts.parquet", SERIES_TABLE, OUTCOME])
 def test_a_table_or_figure_of_other_data_is_named(here, tmp_path, name):
     files = contents(here.path)
@@ -414,12 +436,14 @@ def test_a_table_or_figure_of_other_data_is_named(here, tmp_path, name):
     assert report.problems[0].startswith(f"{name} is not what")
 
 
+@pytest.mark.long("journey")
 def test_a_parquet_file_that_is_garbage_is_named(here, tmp_path):
     name = "parquet/metrics.parquet"
     rewritten(here.path, tmp_path / "other.zip", {name: b"PAR1" + bytes(64)})
     assert check_bundle(tmp_path / "other.zip").problems == (f"{name} is not what the tables hold",)
 
 
+@pytest.mark.long("journey")
 def test_figures_of_another_matplotlib_are_not_compared_and_that_is_said(here, monkeypatch):
     monkeypatch.setattr("app.research.bundle_check.matplotlib_version", lambda: "0.0")
     report = check_bundle(here.path)
@@ -428,6 +452,7 @@ def test_figures_of_another_matplotlib_are_not_compared_and_that_is_said(here, m
     assert "here is 0.0: not compared" in report.notes[0]
 
 
+@pytest.mark.long("journey")
 def test_without_the_packages_a_bundle_is_written_and_says_what_is_left_out(
     here, tmp_path, monkeypatch
 ):
@@ -456,12 +481,14 @@ def test_the_interval_of_a_mean_is_that_of_scipy():
     assert t_interval([5.0]) == 0.0
 
 
+@pytest.mark.long("journey")
 def test_the_figure_names_arms_visits_and_the_outcome(here):
     tree = ET.fromstring(contents(here.path)[OUTCOME])
     words = {"".join(one.itertext()).strip() for one in tree.iter() if one.tag.endswith("text")}
     assert {"guided", "unguided", "pre", "post", "score_total [points]"} <= words
 
 
+@pytest.mark.long("journey")
 def test_figures_are_the_same_bytes_each_time(here):
     files = contents(here.path)
     plain = {name: data for name, data in files.items() if name.endswith((".csv", ".yaml"))}

@@ -46,6 +46,7 @@ def test_the_metric_of_the_page_says_why_it_has_no_value(added: str) -> None:
     assert row.note == "the needle was never inserted"
 
 
+@pytest.mark.long("statistics")
 def test_a_metric_of_the_users_own_that_is_broken_breaks_no_score_and_says_why(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

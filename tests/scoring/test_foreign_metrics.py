@@ -179,6 +179,7 @@ def parameters(values, binding):
 """
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("line", ["raise SystemExit", "import os; os._exit(0)", "1 / 0"])
 def test_an_effect_that_ends_the_program_at_import_is_refused_before_it_does(
     folder: Path, line: str
@@ -188,6 +189,7 @@ def test_an_effect_that_ends_the_program_at_import_is_refused_before_it_does(
         effects.load(effects.KIND.read(folder / "effects" / "mine.py"))
 
 
+@pytest.mark.long("statistics")
 def test_an_effect_whose_parameters_end_the_program_is_refused_by_name(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -229,6 +231,7 @@ def test_a_machine_which_is_compiled_at_its_import_may_take_four_times_as_long(
     assert import_fault(machine, "app.mechanisms", folder) == ""
 
 
+@pytest.mark.long("statistics")
 def test_a_file_that_was_fine_is_not_tried_again_and_one_that_failed_is(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -322,6 +322,7 @@ def test_run_lengths_outside_their_range_are_refused(limit, start, attempts):
         signalled_by(learning_weights(0.1, 0.4), limit, 0.2, attempts, start)
 
 
+@pytest.mark.long("statistics")
 def test_a_million_attempts_are_told_in_seconds():
     standing = competence([True, True, False] * 333_333 + [True])
     assert standing.attempts == 1_000_000
@@ -329,6 +330,7 @@ def test_a_million_attempts_are_told_in_seconds():
     assert competence([True] * 1_000_000).changes[0].attempt == 10
 
 
+@pytest.mark.long("statistics")
 @given(
     st.floats(0.01, 0.6), st.floats(1.5, 8.0), st.sampled_from([0.02, 0.05, 0.1, 0.2]),
     st.sampled_from([0.05, 0.1, 0.2]),

@@ -100,6 +100,7 @@ def test_a_share_that_is_none_and_shares_that_do_not_add_up_are_refused() -> Non
         CaseMix(lying=(0.2, 0.45, 0.40, 0.05))
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", FACTOR_NAMES)
 def test_odds_ratios_refitted_over_ten_thousand_attempts_are_those_published(drawn, name) -> None:
     there, _, happened = drawn
@@ -110,6 +111,7 @@ def test_odds_ratios_refitted_over_ten_thousand_attempts_are_those_published(dra
     assert error < 0.16
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("groups", "ratio"), LYING.items())
 def test_positions_refitted_over_ten_thousand_attempts_are_those_published(
     drawn, groups, ratio
@@ -120,6 +122,7 @@ def test_positions_refitted_over_ten_thousand_attempts_are_those_published(
     assert abs(found - log(ratio)) < SIGMAS * error
 
 
+@pytest.mark.long("statistics")
 def test_all_factors_fitted_together_give_the_models_own_slopes(drawn) -> None:
     there, lying, happened = drawn
     columns = [*there.T, *(lying == n for n in (1, 2, 3))]
@@ -131,6 +134,7 @@ def test_all_factors_fitted_together_give_the_models_own_slopes(drawn) -> None:
     assert (np.exp(model.slopes) > [PUBLISHED[name] for name in FACTOR_NAMES]).all()
 
 
+@pytest.mark.long("statistics")
 def test_a_quarter_of_the_mix_has_a_pneumothorax_and_a_quarter_of_those_needs_a_drain(
     drawn,
 ) -> None:

@@ -236,6 +236,7 @@ def test_agreement_of_any_table_is_finite_and_within_its_interval_or_refused(
         assert one.discrimination is None or -1.0 <= one.discrimination <= 1.0
 
 
+@pytest.mark.long("statistics")
 @settings(deadline=None, max_examples=100, derandomize=True)
 @given(
     st.tuples(st.integers(2, 5), st.integers(1, 4), st.integers(1, 3)).flatmap(

@@ -80,6 +80,7 @@ def test_doing_nothing_far_from_the_target_earns_nothing() -> None:
     assert Score.from_json(result.to_json()).recomputed() == result
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("error", ["depth", "lateral"])
 def test_what_an_attempt_was_like_counts_less_the_farther_it_ended_without_a_jump(error) -> None:
     ends = np.arange(0.0, 0.012, 0.00006)
@@ -92,6 +93,7 @@ def test_what_an_attempt_was_like_counts_less_the_farther_it_ended_without_a_jum
     assert totals[-1] < 5.0
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("short", [0.0058, 0.0072, 0.0091])
 def test_the_totals_deviation_holds_what_a_missed_target_holds_back(short) -> None:
     """Against totals of depths drawn around the measured one."""

@@ -55,6 +55,7 @@ def smoothness(trajectory: Trajectory) -> float:
     return find("spectral_arc_length").compute(trajectory)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seconds", [8.0, 20.0, 60.0])
 @pytest.mark.parametrize("sigma", [1e-5, 3e-5, 6e-5])
 def test_twice_as_many_stops_in_the_same_time_are_less_smooth(seconds: float, sigma: float) -> None:

@@ -68,6 +68,7 @@ def test_a_line_that_leaves_the_scale_sets_no_mark() -> None:
         borderline([1, 2, 3, 4, 5], [0, 0, 0, 50, 100], 5, at=1.0)
 
 
+@pytest.mark.long("statistics")
 def test_groups_part_half_way_between_two_normal_distributions_of_one_width() -> None:
     rng = np.random.default_rng(29)
     experts = rng.normal(85.0, 4.0, (40, 5)).tolist()
@@ -79,6 +80,7 @@ def test_groups_part_half_way_between_two_normal_distributions_of_one_width() ->
     assert contrasted_mark(experts, students) == result  # drawn alike each time
 
 
+@pytest.mark.long("statistics")
 def test_the_error_of_a_mark_is_how_far_marks_of_other_people_lie_apart() -> None:
     """Marks of sixteen schools of 15 and 15 people, whose spread the mean error has to tell."""
     rng = np.random.default_rng(30)
@@ -100,6 +102,7 @@ def test_groups_that_do_alike_or_the_other_way_round_set_no_mark() -> None:
         contrasted_mark([[70.0]] * 3, [[70.0]] * 3)
 
 
+@pytest.mark.long("statistics")
 @settings(deadline=None, max_examples=200, derandomize=True)
 @given(st.lists(st.tuples(st.integers(1, 5), st.floats(0.0, 100.0)), max_size=12))
 def test_a_borderline_mark_lies_between_0_and_100_with_a_finite_error_or_is_refused(

@@ -68,6 +68,7 @@ def found() -> tuple[Trajectory, dict[str, list[float]]]:
     return true, values
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     "name",
     [
@@ -86,6 +87,7 @@ def test_a_deviation_is_that_of_repeated_measurements(
     assert said == pytest.approx(seen, rel=0.25)
 
 
+@pytest.mark.long("statistics")
 def test_the_deviation_of_the_raw_path_is_an_upper_bound(
     found: tuple[Trajectory, dict[str, list[float]]],
 ) -> None:
@@ -97,6 +99,7 @@ def test_the_deviation_of_the_raw_path_is_an_upper_bound(
     assert seen <= said <= 2.0 * seen
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     "name", ["angle_error", "angle_at_skin", "angle_in_plane", "angle_out_of_plane"]
 )
@@ -116,6 +119,7 @@ def test_the_deviation_of_an_angle_is_that_of_repeated_directions(name: str) -> 
     assert metric.deviation(true) == pytest.approx(float(np.std(values)), rel=0.2)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", BOUNDED)
 def test_the_deviation_of_a_distance_between_paths_is_an_upper_bound(
     name: str, found: tuple[Trajectory, dict[str, list[float]]]
@@ -196,6 +200,7 @@ def test_the_utility_stays_monotone_and_continuous_under_doubt() -> None:
     assert np.abs(steps).max() < 0.005
 
 
+@pytest.mark.long("statistics")
 def test_the_totals_deviation_is_that_of_its_rows() -> None:
     rules, rng = ScoreRules(), np.random.default_rng(4)
     sd = (0.1, 0.2)

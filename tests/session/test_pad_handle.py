@@ -25,6 +25,7 @@ def hand_at(direction, depth, handle=TOOL):
     return PadHand(FRAME, PadScale(0.08, 0.004), LIMITS, pose, handle)
 
 
+@pytest.mark.long("journey")
 @MANY
 @given(SIDE, SIDE, st.floats(0.005, 0.11), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 def test_tip_and_handle_go_as_the_arm_at_a_trocar_says(x, y, depth, right, up):

@@ -39,6 +39,7 @@ def placed_three(state, off=(0.0, 0.0, 0.0)):
     return state, data
 
 
+@pytest.mark.long("machine")
 def test_the_aim_goes_from_electrode_to_electrode_and_the_generator_comes_last():
     state = begin(liver())
     assert state.possible == (Step.PLACE_ELECTRODE,)
@@ -59,6 +60,7 @@ def test_the_aim_goes_from_electrode_to_electrode_and_the_generator_comes_last()
         do(state, Step.PLACE_ELECTRODE, needle(plan))
 
 
+@pytest.mark.long("machine")
 def test_electrodes_where_they_were_planned_reach_the_planned_margin():
     state = begin(liver())
     planned = state.ablation.planned
@@ -71,6 +73,7 @@ def test_electrodes_where_they_were_planned_reach_the_planned_margin():
     assert data["spacing_error_mm"] == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.long("machine")
 def test_electrodes_beside_their_places_reach_less_and_the_error_of_spacing_is_told():
     state = begin(liver())
     planned = state.ablation.planned.least_mm
@@ -88,6 +91,7 @@ def test_electrodes_beside_their_places_reach_less_and_the_error_of_spacing_is_t
     assert data["spacing_error_mm"] == pytest.approx(max(apart))
 
 
+@pytest.mark.long("machine")
 def test_less_power_ablates_less_and_a_row_that_is_none_is_refused():
     state, _ = placed_three(begin(liver()))
     with pytest.raises(ProcedureNotPossibleError, match="there are 0 to 15"):
@@ -98,6 +102,7 @@ def test_less_power_ablates_less_and_a_row_that_is_none_is_refused():
     assert weak.ablation.reached.least_mm < 0.0
 
 
+@pytest.mark.long("machine")
 def test_two_electrodes_at_one_place_are_refused_in_one_line():
     state = begin(liver())
     first = state.ablation.plans[0]
@@ -119,6 +124,7 @@ def test_a_power_that_the_generator_does_not_have_is_refused_by_the_exercise():
         part(generator="nobodys")
 
 
+@pytest.mark.long("machine")
 def test_an_electrode_is_left_only_in_the_body_and_where_the_cameras_see_it():
     state = begin(liver())
     plan = state.ablation.plans[0]
@@ -128,6 +134,7 @@ def test_an_electrode_is_left_only_in_the_body_and_where_the_cameras_see_it():
         perform(state, Step.PLACE_ELECTRODE, None, placed(), state.ablation.lesion.field)
 
 
+@pytest.mark.long("machine")
 def test_an_electrode_in_breathing_tissue_is_kept_where_that_rests():
     field = liver()
     state = begin(field)
@@ -138,6 +145,7 @@ def test_an_electrode_in_breathing_tissue_is_kept_where_that_rests():
     assert data["off_mm"] < 1.5  # the field carries it back with its target
 
 
+@pytest.mark.long("machine")
 def test_no_margin_is_asked_for_beyond_the_capsule_and_vessels_and_gut_are_named():
     # 13 mm to the capsule: the lesion's surface has 2 mm of liver there.
     inner = judge(Lesion.at(liver(), (0.0, 0.0, 0.0)), [Zone(np.zeros(3), [0, 1, 0], 14.0, 14.0)])
@@ -178,6 +186,7 @@ def test_the_share_of_a_lesion_in_a_field_is_that_of_its_ball():
     assert half.share == pytest.approx(lens / ball, abs=8e-3)
 
 
+@pytest.mark.long("machine")
 def test_what_scoring_reads_of_a_record_is_what_the_attempt_had():
     state = begin(liver(vessel_mm=18.0))
     events = [Event(0.0, KIND, state.words, begin_data(state))]

@@ -64,6 +64,7 @@ def one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Place:
     return place
 
 
+@pytest.mark.long("journey")
 def test_a_backup_moves_everything_to_another_computer(
     one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -86,6 +87,7 @@ def test_a_backup_moves_everything_to_another_computer(
     assert (again.records, again.kept, again.people, again.key) == (0, 3, "kept", "same")
 
 
+@pytest.mark.long("journey")
 def test_without_the_recovery_key_records_of_another_station_are_unsigned(
     one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -100,6 +102,7 @@ def test_without_the_recovery_key_records_of_another_station_are_unsigned(
     assert not key_file().exists()
 
 
+@pytest.mark.long("journey")
 def test_a_key_that_was_here_is_set_aside(
     one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -121,6 +124,7 @@ def test_a_record_that_is_another_one_here_is_kept_and_said(one: Place, tmp_path
     assert path.read_bytes().endswith(b"x")
 
 
+@pytest.mark.long("journey")
 def test_erasing_leaves_the_record_anonymous_or_takes_it_too(one: Place) -> None:
     key = one.people.find("Ada").key
     assert erase_person("Ada", one.folder, delete_records=False) == (0, 2)
@@ -130,6 +134,7 @@ def test_erasing_leaves_the_record_anonymous_or_takes_it_too(one: Place) -> None
     assert one.people.everybody(names=True) == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/people.md: A backup that is restored later brings back neither the person nor "
     "these records"

@@ -114,6 +114,7 @@ def _notes(data: str, who: str) -> None:
         audit.note("attempt deleted", [f"{who}-{number}"])
 
 
+@pytest.mark.long("journey")
 def test_several_programs_add_lines_at_one_time_and_none_is_lost() -> None:
     StationKey.of()
     context = multiprocessing.get_context("spawn")

@@ -47,6 +47,7 @@ def emptied(station: SchoolStation) -> set[str]:
     return names
 
 
+@pytest.mark.long("journey")
 def test_what_was_there_at_the_last_backup_is_not_written_again(
     station: SchoolStation, tmp_path: Path
 ) -> None:
@@ -143,6 +144,7 @@ def test_a_piece_that_is_harmed_is_named_and_nothing_is_restored(
     assert list(station.folder.glob("*.mcap")) == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("passphrase", ["", "correct horse"])
 def test_a_list_that_is_cut_or_of_which_a_byte_is_flipped_is_refused_in_one_line(
     station: SchoolStation, tmp_path: Path, passphrase: str
@@ -182,6 +184,7 @@ def test_another_passphrase_or_none_or_one_too_many_is_one_line(
     assert len(backups_of(locked)) == len(backups_of(plain)) == 1
 
 
+@pytest.mark.long("journey")
 def test_a_damaged_list_and_a_backup_in_one_file_end_no_later_backups(
     station: SchoolStation, tmp_path: Path
 ) -> None:
@@ -248,6 +251,7 @@ def test_cts_go_in_where_they_are_asked_for_and_come_back(
     assert sorted(path.read_bytes() for path in Path(folder).iterdir()) == [b"first", b"second"]
 
 
+@pytest.mark.long("journey")
 def test_the_commands_back_up_check_and_restore(
     station: SchoolStation,
     tmp_path: Path,

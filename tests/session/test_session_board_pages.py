@@ -127,6 +127,7 @@ def trend_of(totals: list[float]) -> float | None:
     return median(slopes) if len(last) >= 3 else None
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("seed", range(8))
 def test_the_board_by_columns_is_that_of_one_attempt_after_the_other(seed: int) -> None:
     some = random_attempts(seed, 1000)
@@ -188,6 +189,7 @@ def do(folder: Path, text: str) -> list[Any]:
     return found
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "change",
     [
@@ -212,6 +214,7 @@ def test_pages_and_rows_that_were_edited_change_nothing(folder: Path, change: st
     assert [(one.summary, one.conditions) for one in index.attempts()] == said
 
 
+@pytest.mark.long("journey")
 def test_what_goes_comes_or_is_written_anew_leaves_its_page(folder: Path) -> None:
     index, before = Index(folder), list(Index(folder).attempts())
     delete(folder, before[0].id)
@@ -225,6 +228,7 @@ def test_what_goes_comes_or_is_written_anew_leaves_its_page(folder: Path) -> Non
     assert list(rebuilt.attempts()) == list(index.attempts())
 
 
+@pytest.mark.long("journey")
 def test_a_page_that_is_put_back_brings_no_attempt_back(folder: Path) -> None:
     gone = Index(folder).attempts()[0].id
     (kept,) = do(folder, f"SELECT number, body, seal FROM pages WHERE body LIKE '%{gone}%'")
@@ -239,6 +243,7 @@ def test_a_page_that_is_put_back_brings_no_attempt_back(folder: Path) -> None:
     assert len({one.id for one in index.attempts()}) == len(index.attempts()) == 6
 
 
+@pytest.mark.long("journey")
 def test_beyond_so_many_records_some_are_looked_at_each_time(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

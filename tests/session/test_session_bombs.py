@@ -191,6 +191,7 @@ def test_a_folder_of_bombs_is_listed_in_seconds_and_little_memory(
     assert resident < RESIDENT
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_bomb_is_refused_with_its_name_its_size_and_what_it_may_take(
     listed: dict[str, list[str]], name: str
@@ -201,6 +202,7 @@ def test_a_bomb_is_refused_with_its_name_its_size_and_what_it_may_take(
     assert "MB and would take more than" in reason
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", BROKEN)
 def test_what_does_not_hold_what_it_says_is_left_out(
     listed: dict[str, list[str]], name: str
@@ -208,6 +210,7 @@ def test_what_does_not_hold_what_it_says_is_left_out(
     assert listed[name][0] in ("broken", "unfinished")
 
 
+@pytest.mark.long("journey")
 def test_a_sidecar_that_is_a_bomb_is_written_anew_and_the_record_listed(
     listed: dict[str, list[str]],
 ) -> None:

@@ -24,6 +24,7 @@ def station(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SchoolStation:
     return station
 
 
+@pytest.mark.long("journey")
 def test_a_station_on_which_nothing_was_touched_is_right(station: SchoolStation) -> None:
     delete(station.folder, sorted(station.folder.glob("*.mcap"))[0].stem)
     done = check_store(station.folder, People())
@@ -77,6 +78,7 @@ def test_a_backup_is_held_against_its_list(station: SchoolStation, tmp_path: Pat
         check_backup(tmp_path / "nothing")
 
 
+@pytest.mark.long("journey")
 @settings(max_examples=40, deadline=None)
 @given(where=st.floats(0.0, 0.999), bit=st.integers(0, 7))
 def test_a_bit_that_turned_over_in_a_backup_is_seen_or_is_in_nothing_that_is_read(

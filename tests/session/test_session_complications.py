@@ -123,6 +123,7 @@ SMALL = seed_with(air=(0.0, 0.05), drain=(0.3, 1.0))
 NOTHING = seed_with(air=(0.9, 1.0), blood=(0.5, 1.0))
 
 
+@pytest.mark.long("machine")
 def test_nothing_happens_until_the_pleura_is_punctured() -> None:
     attempt = Attempt(attempt=LARGE).go(14.0).wait(120.0)
     assert attempt.probability == 0.0
@@ -131,6 +132,7 @@ def test_nothing_happens_until_the_pleura_is_punctured() -> None:
     assert attempt.probability > 0.1
 
 
+@pytest.mark.long("machine")
 def test_a_second_puncture_raises_the_odds_and_dwelling_and_hurrying_do_not() -> None:
     fast = Attempt(attempt=NOTHING).go(40.0, speed=40.0)
     slow = Attempt(attempt=NOTHING).go(40.0, speed=5.0).wait(200.0)
@@ -141,6 +143,7 @@ def test_a_second_puncture_raises_the_odds_and_dwelling_and_hurrying_do_not() ->
     assert [one["again"] for one in facts] == [False, True]
 
 
+@pytest.mark.long("machine")
 def test_a_deep_way_a_thick_needle_and_emphysema_raise_the_odds() -> None:
     shallow, deep = Attempt(attempt=NOTHING).go(40.0), Attempt(attempt=NOTHING).go(60.0)
     assert deep.probability > shallow.probability
@@ -168,6 +171,7 @@ def test_the_needle_for_local_anaesthetic_punctures_too_and_is_thin() -> None:
     )
 
 
+@pytest.mark.long("machine")
 def test_the_same_seed_gives_the_same_complication_and_the_record_gives_it_again() -> None:
     one, two = (Attempt(attempt=LARGE).go(48.0).wait(200.0) for _ in range(2))
     assert one.onset == two.onset is not None
@@ -185,6 +189,7 @@ def test_an_assessment_gives_all_one_seed_and_practice_each_its_own() -> None:
     assert attempt_seed(ids[0], False) == attempt_seed(ids[0], False)
 
 
+@pytest.mark.long("machine")
 def test_onset_comes_after_its_cause_and_in_a_share_of_seeds_that_is_the_probability() -> None:
     begun, dry = 0, case(bleeding=False)
     for n in range(120):
@@ -200,6 +205,7 @@ def test_onset_comes_after_its_cause_and_in_a_share_of_seeds_that_is_the_probabi
     assert begun / 120 == pytest.approx(p, abs=3.0 * np.sqrt(p * (1 - p) / 120))
 
 
+@pytest.mark.long("machine")
 def test_the_lung_falls_back_in_the_next_scans_more_and_more() -> None:
     attempt = Attempt(case(bleeding=False), LARGE).go(48.0)
     assert attempt.happens.scanned() is None
@@ -220,6 +226,7 @@ def test_a_patient_turned_before_it_begins_has_a_smaller_leak_or_none() -> None:
     assert 0.0 <= turned.happens.share < 0.7 * up.happens.share
 
 
+@pytest.mark.long("machine")
 def test_what_waits_for_the_program_does_not_grow() -> None:
     attempt = Attempt(attempt=LARGE).go(48.0).wait(60.0)
     share = attempt.happens.share
@@ -227,6 +234,7 @@ def test_what_waits_for_the_program_does_not_grow() -> None:
     assert attempt.happens.share == share > 0.0
 
 
+@pytest.mark.long("machine")
 def test_it_is_noticed_and_answered_by_size() -> None:
     attempt = Attempt(case(bleeding=False), SMALL).go(48.0).wait(60.0)
     assert "right" in attempt.do(Reaction.GO_ON)
@@ -252,6 +260,7 @@ def test_an_answer_to_a_complication_that_is_not_there_is_told_in_one_line_and_r
     assert attempt.happens.state.answers == (words,)
 
 
+@pytest.mark.long("machine")
 def test_the_lung_bleeds_after_a_sample_about_the_needles_way() -> None:
     bleeds = seed_with(air=(0.9, 1.0), blood=(0.0, 0.3), grade=(0.0, 0.2))
     attempt = Attempt(attempt=bleeds).go(48.0).wait(30.0)
@@ -266,6 +275,7 @@ def test_the_lung_bleeds_after_a_sample_about_the_needles_way() -> None:
     assert "right" in attempt.do(Reaction.TURN)
 
 
+@pytest.mark.long("machine")
 def test_a_scan_keeps_what_it_showed() -> None:
     attempt = Attempt(attempt=LARGE).go(48.0).wait(120.0)
     inside = attempt.happens.scanned()
@@ -368,6 +378,7 @@ def test_a_lesion_is_measured_and_its_contact_to_the_pleura_seen() -> None:
     assert lesion_facts(chest((near,)), (-60.0, -42.0, 0.0)).touches
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(("skill", "right"), [("expert", True), ("novice", False)])
 def test_an_expert_answers_soon_and_rightly_and_a_novice_late(skill: str, right: bool) -> None:
     attempt = Attempt(case(bleeding=False), LARGE)
@@ -413,6 +424,7 @@ def test_a_worse_skill_misses_thinner_rims_and_overlooks_more() -> None:
         assert len(answers.rows(Vitals())) == seen
 
 
+@pytest.mark.long("machine")
 def test_a_scan_of_a_record_is_read_with_what_it_showed() -> None:
     attempt = Attempt(attempt=LARGE).go(48.0).wait(120.0)
     data = {
@@ -453,6 +465,7 @@ def bench(tmp_path, monkeypatch):
     bench.trainer.close()
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_runs_shows_records_and_scores_what_happens(bench) -> None:
     running = bench.trainer
     bench.run(0.2)
@@ -485,6 +498,7 @@ def test_outside_an_attempt_nothing_can_be_answered(bench) -> None:
         bench.trainer.answer(Reaction.STOP)
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_that_does_not_ask_has_no_trace_of_complications(tmp_path) -> None:
     plain = Bench(tmp_path)
     plain.run(0.2)

@@ -35,6 +35,7 @@ def scanned(bench: Bench, *orders: ScanOrder) -> tuple[ControlScan, ...]:
     return scans_of(bench.trainer.events.drain())
 
 
+@pytest.mark.long("machine")
 def test_a_scan_knows_where_the_needle_was_in_the_patient(bench: Bench) -> None:
     (scan,) = scanned(bench, ScanOrder(310.2, 3, 5.0))
     np.testing.assert_allclose(scan.needle.tip_mm, (-12.5, -98.0 + 40.0, 310.2), atol=0.5)
@@ -44,6 +45,7 @@ def test_a_scan_knows_where_the_needle_was_in_the_patient(bench: Bench) -> None:
     np.testing.assert_allclose(scan.shift_mm, 0.0, atol=1e-9)
 
 
+@pytest.mark.long("machine")
 def test_a_tip_outside_the_range_is_not_seen_and_costs_the_same(bench: Bench) -> None:
     inside, beside = scanned(bench, ScanOrder(310.2, 3, 5.0), ScanOrder(340.0, 5, 5.0))
     assert (inside.seen, beside.seen) == (Seen.TIP, Seen.NOTHING)
@@ -51,12 +53,14 @@ def test_a_tip_outside_the_range_is_not_seen_and_costs_the_same(bench: Bench) ->
     assert [inside.number, beside.number] == [1, 2]
 
 
+@pytest.mark.long("machine")
 def test_breathing_is_kept_with_the_scan(bench: Bench) -> None:
     bench.loop.extra = {"target_shift_y": 0.008}
     (scan,) = scanned(bench, ScanOrder(310.2))
     np.testing.assert_allclose(scan.shift_mm, (0.0, 0.0, 8.0), atol=1e-9)
 
 
+@pytest.mark.long("machine")
 def test_count_and_dose_are_metrics_of_the_attempt_and_of_its_record(bench: Bench) -> None:
     scanned(bench, ScanOrder(310.2), ScanOrder(311.0, 4))
     bench.trainer.scan()  # counted only
@@ -71,6 +75,7 @@ def test_count_and_dose_are_metrics_of_the_attempt_and_of_its_record(bench: Benc
     assert [mark.dose for mark in again.scans] == pytest.approx([11.55, 15.4, 0.0])
 
 
+@pytest.mark.long("machine")
 def test_the_record_gives_the_same_scans_back_and_lists_them_for_a_replay(bench: Bench) -> None:
     before = scanned(bench, ScanOrder(310.2), ScanOrder(330.0, 5, 2.5))
     record = bench.trainer.end().record
@@ -85,6 +90,7 @@ def test_the_record_gives_the_same_scans_back_and_lists_them_for_a_replay(bench:
     assert [s["seen"] for s in listed.document()["scans"]] == ["tip", "nothing"]
 
 
+@pytest.mark.long("machine")
 def test_a_scan_says_by_itself_what_its_pictures_showed(bench: Bench) -> None:
     bench.trainer._exercise = SimpleNamespace(
         **vars(EXERCISE) | {"guidance": GuidancePart(streak=True)}
@@ -96,6 +102,7 @@ def test_a_scan_says_by_itself_what_its_pictures_showed(bench: Bench) -> None:
     assert data["range_mm"] == [305.2, 315.2]
 
 
+@pytest.mark.long("machine")
 def test_a_needle_that_nobody_sees_is_not_scanned_and_nothing_is_counted(bench: Bench) -> None:
     bench.run(0.2)
     bench.trainer.begin()

@@ -50,6 +50,7 @@ def taken(bench: Bench) -> tuple[ControlScan, ...]:
     return scans_of(bench.trainer.events.drain())
 
 
+@pytest.mark.long("machine")
 def test_who_stays_gets_the_scan_at_once_and_a_dose_of_the_hand(bench: Bench) -> None:
     assert bench.trainer.scan(order(), ScanChoice(50.0)) == 1
     (scan,) = taken(bench)
@@ -59,6 +60,7 @@ def test_who_stays_gets_the_scan_at_once_and_a_dose_of_the_hand(bench: Bench) ->
     assert scan.look.noise_hu == pytest.approx(4.0 * np.sqrt(150.0 / 50.0 - 1.0))
 
 
+@pytest.mark.long("machine")
 def test_who_leaves_waits_in_the_attempts_own_time_which_counts(bench: Bench) -> None:
     began = bench.trainer.snapshot().elapsed
     assert bench.trainer.scan(order(), ScanChoice(50.0, leaves=True)) == 0
@@ -76,6 +78,7 @@ def test_who_leaves_waits_in_the_attempts_own_time_which_counts(bench: Bench) ->
     assert words == ["the student is back at the patient"]
 
 
+@pytest.mark.long("machine")
 def test_nobody_is_at_the_needle_meanwhile(bench: Bench) -> None:
     bench.trainer.scan(order(), ScanChoice(50.0, leaves=True))
     bench.run(1.0)
@@ -91,6 +94,7 @@ def test_nobody_is_at_the_needle_meanwhile(bench: Bench) -> None:
     assert bench.trainer.snapshot().pose.depth == pytest.approx(0.045, abs=1e-3)
 
 
+@pytest.mark.long("machine")
 def test_a_needle_that_nobody_sees_from_outside_is_told_and_not_counted(bench: Bench) -> None:
     bench.trainer.scan(order(), ScanChoice(50.0, leaves=True))
     bench.tracker.status = "out_of_view"
@@ -100,6 +104,7 @@ def test_a_needle_that_nobody_sees_from_outside_is_told_and_not_counted(bench: B
     assert bench.trainer.snapshot().scans == 0
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_that_ends_outside_has_no_scan(bench: Bench) -> None:
     bench.trainer.scan(order(), ScanChoice(50.0, leaves=True))
     result = bench.trainer.end()
@@ -107,6 +112,7 @@ def test_an_attempt_that_ends_outside_has_no_scan(bench: Bench) -> None:
     assert bench.trainer.snapshot().out_of_room is None
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("changes", "choice", "words"),
     [({}, ScanChoice(30.0), "30 mA: the exercise offers 20, 50, 100 mA"),
@@ -119,6 +125,7 @@ def test_a_current_that_is_not_offered_is_refused(bench, changes, choice, words)
     assert bench.trainer.snapshot().scans == 0
 
 
+@pytest.mark.long("machine")
 def test_what_an_exercise_does_not_offer_is_refused(bench: Bench) -> None:
     plain = GuidancePart()
     for wanted, choice, words in (
@@ -130,6 +137,7 @@ def test_what_an_exercise_does_not_offer_is_refused(bench: Bench) -> None:
             plain.check(wanted, choice)
 
 
+@pytest.mark.long("machine")
 def test_the_record_gives_every_choice_back_and_lists_it(bench: Bench) -> None:
     bench.trainer.scan(order(tilt_deg=10.0, pivot_mm=-60.0), ScanChoice(20.0))
     bench.trainer.scan(order(), ScanChoice(100.0, leaves=True))
@@ -150,6 +158,7 @@ def test_the_record_gives_every_choice_back_and_lists_it(bench: Bench) -> None:
     assert [mark.hand_usv for mark in marks] == pytest.approx([1.01, 0.0], abs=0.01)
 
 
+@pytest.mark.long("machine")
 def test_the_exercises_own_needle_is_drawn_and_a_stylet_that_is_out_leaves_it_hollow(bench) -> None:
     bench.trainer.scan(order(), ScanChoice(50.0))
     bench.trainer._procedure = SimpleNamespace(tool=ToolInHand.OPEN, ablation=None)
@@ -162,6 +171,7 @@ def test_the_exercises_own_needle_is_drawn_and_a_stylet_that_is_out_leaves_it_ho
     assert "stylet out" in hollow.chosen
 
 
+@pytest.mark.long("machine")
 def test_a_tip_in_a_gap_is_told(bench: Bench) -> None:
     bench.trainer.scan(order(centre_mm=306.2), ScanChoice(50.0))
     (scan,) = taken(bench)

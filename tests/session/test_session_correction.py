@@ -80,6 +80,7 @@ def test_without_tissue_or_with_another_versions_exercise_nothing_is_said_of_for
     assert side_force(empty, exercise_in(empty)) is None
 
 
+@pytest.mark.long("journey")
 def test_every_record_of_the_machines_is_reviewed_with_it():
     for path in sorted(MACHINES.glob("*.mcap")):
         found = review(open_recording(path)).correction

@@ -181,6 +181,7 @@ def test_a_course_with_rates_that_make_no_test_is_refused(
         read_course(path)
 
 
+@pytest.mark.long("journey")
 def test_ten_thousand_attempts_make_a_board_within_a_second() -> None:
     people = [Person(f"p-{k}", f"s{k}") for k in range(200)]
     some = [

@@ -43,6 +43,7 @@ def attempt(bench: Bench, mark: EntryMark | None):
     return bench.trainer.end()
 
 
+@pytest.mark.long("journey")
 def test_the_mark_is_told_recorded_and_scored(bench: Bench) -> None:
     result = attempt(bench, marked(ENTRY + (0.2, 0.0, 0.1)))
     assert result.record is not None
@@ -56,6 +57,7 @@ def test_the_mark_is_told_recorded_and_scored(bench: Bench) -> None:
     assert metrics.find("entry_mark_error").compute(recording.trajectory()) == 3.5
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("mark", [None, marked(ENTRY + (0.0, 0.0, 9.0))])
 def test_a_mark_elsewhere_or_none_is_not_scored(bench: Bench, mark: EntryMark | None) -> None:
     from app.scoring.errors import MetricUnavailableError
@@ -67,6 +69,7 @@ def test_a_mark_elsewhere_or_none_is_not_scored(bench: Bench, mark: EntryMark | 
         metrics.find("entry_mark_error").compute(path)
 
 
+@pytest.mark.long("journey")
 def test_scans_of_such_an_exercise_show_the_grid(bench: Bench) -> None:
     bench.run(0.2)
     bench.trainer.begin("s")

@@ -55,6 +55,7 @@ def results(station: SchoolStation, out: Path) -> Path:
     return out
 
 
+@pytest.mark.long("journey")
 def test_results_hold_no_key_no_name_and_no_erased_key(school, tmp_path: Path) -> None:
     one, *_ = school
     one.record(student(0))
@@ -75,6 +76,7 @@ def test_results_hold_no_key_no_name_and_no_erased_key(school, tmp_path: Path) -
     assert len(manifest["files"]) == 3
 
 
+@pytest.mark.long("journey")
 def test_a_course_brings_the_same_keys_and_names_only_if_asked(school, tmp_path: Path) -> None:
     one, two, head = school
     assert {p.key for p in one.enter().everybody()} == set(pool()[1])
@@ -95,6 +97,7 @@ def test_a_course_brings_the_same_keys_and_names_only_if_asked(school, tmp_path:
     assert People().sign_in("Ada", "1843").key == student(0)
 
 
+@pytest.mark.long("journey")
 def test_records_of_a_known_station_count_and_the_board_is_that_of_both(
     school, tmp_path: Path
 ) -> None:
@@ -113,6 +116,7 @@ def at(station: SchoolStation) -> tuple[Path]:
     return (station.folder,)
 
 
+@pytest.mark.long("journey")
 def test_what_is_beyond_a_limit_is_marked_and_said_and_nothing_is_lost(
     school, tmp_path: Path
 ) -> None:
@@ -177,6 +181,7 @@ def turned(data: bytes) -> bytes:
     return data[:100] + bytes((data[100] ^ 1,)) + data[101:]
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("change", "why"),
     [
@@ -297,6 +302,7 @@ def test_two_people_with_one_pseudonym_are_named_and_neither_is_lost(
     assert People().find("Ada").key == own
 
 
+@pytest.mark.long("journey")
 def test_an_erased_person_and_their_attempts_do_not_come_back(school, tmp_path: Path) -> None:
     one, two, _ = school
     one.record(student())
@@ -371,6 +377,7 @@ def killed_before(step: int):
     return watch
 
 
+@pytest.mark.long("journey")
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 def test_a_kill_at_every_step_takes_all_or_nothing(school, tmp_path: Path) -> None:
     one, two, _ = school
@@ -411,6 +418,7 @@ def run(*args: str) -> int:
     return 0
 
 
+@pytest.mark.long("journey")
 def test_by_command_refused_files_are_named_and_the_others_taken(
     school, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -58,6 +58,7 @@ def manifest_of(out: Path) -> dict:
         return json.loads(archive.read("manifest.json"))
 
 
+@pytest.mark.long("journey")
 def test_who_was_erased_with_records_kept_is_gone_everywhere_and_the_records_stay(
     school, tmp_path: Path
 ) -> None:

@@ -52,6 +52,7 @@ def heard(station: SchoolStation, out: Path):
     return gather_file(out, station.folder, trust=True)
 
 
+@pytest.mark.long("journey")
 def test_the_latest_remark_by_the_counters_holds_in_whatever_order_files_come(
     school, tmp_path: Path, patch: pytest.MonkeyPatch
 ) -> None:
@@ -71,6 +72,7 @@ def test_the_latest_remark_by_the_counters_holds_in_whatever_order_files_come(
             assert three.enter().remarks()[name].comment == latest, order
 
 
+@pytest.mark.long("journey")
 def test_a_remark_that_is_taken_back_stays_so_whatever_comes_late(school, tmp_path: Path) -> None:
     one, two = school
     name = one.record(student())
@@ -84,6 +86,7 @@ def test_a_remark_that_is_taken_back_stays_so_whatever_comes_late(school, tmp_pa
     assert two.enter().remarks()[name].void == ""
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "change",
     [

@@ -60,6 +60,7 @@ def impostor(root: Path, of: SchoolStation) -> SchoolStation:
     return false
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("whose", [0, 1])
 def test_nobody_is_let_in_under_the_id_of_a_known_station_or_of_this_one(
     school, tmp_path: Path, whose: int
@@ -170,6 +171,7 @@ def with_another_total(manifest: dict, members: Members) -> None:
     members[name] = json.dumps(document).encode()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "change",
     [

@@ -48,6 +48,7 @@ def attempt(bench: Bench, hand: str) -> Recording:
     return read_recording(result.record)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("hand", "knots", "bands"),
     [
@@ -77,6 +78,7 @@ def test_the_hand_that_held_the_needle_says_by_what_it_is_judged(
 WORDS = "scoring bands for the mouse, set from scripted runs, not from people"
 
 
+@pytest.mark.long("journey")
 def test_the_debrief_says_whose_bands_judged_and_that_they_are_from_scripts(bench: Bench) -> None:
     shown = review(attempt(bench, "mouse")).conditions
     assert bands_words(shown) == WORDS
@@ -87,6 +89,7 @@ def test_the_debrief_says_whose_bands_judged_and_that_they_are_from_scripts(benc
     assert "bands" not in short_words(other)
 
 
+@pytest.mark.long("journey")
 def test_a_record_whose_bands_were_taken_away_is_judged_by_what_its_score_says(
     bench: Bench,
 ) -> None:
@@ -98,6 +101,7 @@ def test_a_record_whose_bands_were_taken_away_is_judged_by_what_its_score_says(
     assert again.row("angle_error").tolerance.knots == OWN
 
 
+@pytest.mark.long("journey")
 def test_a_record_from_before_there_were_bands_is_judged_as_it_was(bench: Bench) -> None:
     recording = attempt(bench, "mouse")
     document = json.loads(recording.attachments[EXERCISE_FILE])

@@ -190,6 +190,7 @@ def test_two_programs_that_start_together_draw_one_key(tmp_path: Path) -> None:
 
 
 # --- the index ------------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_the_index_follows_the_folder_and_is_rebuilt_equal(folder: Path) -> None:
     index = Index(folder)
     assert (index.refresh().read, index.refresh().read) == (3, 0)
@@ -215,6 +216,7 @@ def test_a_row_gives_the_summary_that_the_list_gives(folder: Path) -> None:
     assert all(not one.counts or one.total is not None for one in index.attempts())
 
 
+@pytest.mark.long("journey")
 def test_an_index_that_is_no_database_is_said_and_made_anew(folder: Path) -> None:
     Index(folder).refresh()
     for file in folder.glob(f"{INDEX}*"):
@@ -256,6 +258,7 @@ def test_a_folder_that_can_only_be_read_is_indexed_in_memory(
     assert not (folder / INDEX).exists()
 
 
+@pytest.mark.long("journey")
 def test_a_full_disk_is_one_line(folder: Path) -> None:
     index = Index(folder)
     index.refresh()

@@ -47,6 +47,7 @@ def cut(attempt, tmp_path):
     return path
 
 
+@pytest.mark.long("journey")
 def test_a_record_without_its_end_is_offered_and_kept_as_unfinished_with_all_that_is_whole(cut):
     folder = cut.parent
     before = read_recording(cut)
@@ -139,6 +140,7 @@ def test_a_full_disk_while_recovering_loses_nothing(cut, monkeypatch):
     assert not list(cut.parent.glob("*.part"))
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_that_had_ended_when_the_program_was_killed_keeps_its_score(tmp_path):
     bench = Bench(tmp_path / "whole")
     bench.trainer.begin("s")

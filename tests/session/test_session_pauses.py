@@ -101,6 +101,7 @@ def test_a_pause_stands_in_the_record_and_in_the_times_and_too_long_ones_void_th
     assert "waited" in result.score.void_reason
 
 
+@pytest.mark.long("journey")
 def test_a_short_pause_leaves_the_score_standing(bench: Bench) -> None:
     bench.trainer.begin()
     bench.insertion()
@@ -114,6 +115,7 @@ def test_a_short_pause_leaves_the_score_standing(bench: Bench) -> None:
     assert result.score.row("tracking_valid").value < 95.0
 
 
+@pytest.mark.long("journey")
 def test_a_lost_camera_on_the_way_in_lets_the_path_be_judged_from_the_skin_on(bench: Bench) -> None:
     bench.trainer.begin()
     bench.run(0.5, -0.02)
@@ -213,6 +215,7 @@ def _blocked(bench: Bench, seconds: float) -> Any:
     return snapshot
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(("depth", "state"), [(-0.02, State.ALIGNING), (0.04, State.INSERTING)])
 def test_a_busy_window_pauses_and_the_attempt_goes_on_where_it_was(
     bench: Bench, depth: float, state: State

@@ -84,6 +84,7 @@ def test_wrong_tries_cost_time_and_the_right_pin_too_meanwhile(people: People, w
         people.sign_in("Ada", "0000")
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/people.md: then twice as long each time, up to five minutes; so it is with PINs"
 )
@@ -128,6 +129,7 @@ def compared(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return given
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/people.md: Signing in says the same and takes the same time whether or not there "
     "is such a student"
@@ -201,6 +203,7 @@ def test_right_passwords_at_one_moment_keep_nobody_out(people: People) -> None:
         list(pool.map(check, range(6)))
 
 
+@pytest.mark.long("journey")
 def test_the_instructor_has_a_password_and_a_recovery_key(people: People, wall: Wall) -> None:
     recovery = people.set_instructor("correct horse")
     assert people.has_instructor()
@@ -223,6 +226,7 @@ def test_the_instructor_has_a_password_and_a_recovery_key(people: People, wall: 
     assert StationKey.unwrapped(people.wrapped_key(), recovery) == StationKey.of(people.folder)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/people.md: the next change of the password prints a new one")
 def test_a_recovery_key_of_an_earlier_build_is_replaced(people: People) -> None:
     former = people.set_instructor("correct horse")
@@ -372,6 +376,7 @@ def test_damaged_files_are_one_line_and_stay(people: People) -> None:
     assert (people.folder / PEOPLE).read_bytes() == b"x" * 5000
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("fault", ["folder", "disk"])
 def test_where_tries_cannot_be_written_people_sign_in_and_the_program_counts_for_itself(
     people: People, wall: Wall, monkeypatch: pytest.MonkeyPatch, fault: str

@@ -158,6 +158,7 @@ def acus(monkeypatch, capsys):
     return run
 
 
+@pytest.mark.long("journey")
 def test_the_instructor_prints_them_and_keeps_them_as_a_new_exercise(acus, monkeypatch) -> None:
     people = People()
     lines = [RosterLine(f"c{n}", groups=("consultants",)) for n in range(3)]

@@ -59,6 +59,7 @@ def sheet(folder: Path, text: str) -> Path:
     return path
 
 
+@pytest.mark.long("journey")
 def test_judges_set_a_mark_that_a_new_exercise_keeps_with_how_it_was_set(
     acus: Callable[..., Any], tmp_path: Path
 ) -> None:
@@ -79,6 +80,7 @@ def test_judges_set_a_mark_that_a_new_exercise_keeps_with_how_it_was_set(
     assert rules.mark.score_error == facts["score_error"]
 
 
+@pytest.mark.long("journey")
 def test_a_mark_is_versioned_with_its_exercise(
     acus: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -94,6 +96,7 @@ def test_a_mark_is_versioned_with_its_exercise(
     assert load_exercise("ours@1").rules.pass_mark == 66.0
 
 
+@pytest.mark.long("journey")
 def test_examiners_set_a_mark_by_the_ratings_of_peoples_attempts(
     acus: Callable[..., Any], tmp_path: Path
 ) -> None:
@@ -105,6 +108,7 @@ def test_examiners_set_a_mark_by_the_ratings_of_peoples_attempts(
     assert acus("--borderline", path, "--at", "3", "--json")["points"] > facts["points"] + 5.0
 
 
+@pytest.mark.long("journey")
 def test_contrasting_groups_set_a_mark_between_them(acus: Callable[..., Any]) -> None:
     facts = acus("--experienced", "consultants", "--json")
     assert 65.0 < facts["points"] < 80.0
@@ -113,6 +117,7 @@ def test_contrasting_groups_set_a_mark_between_them(acus: Callable[..., Any]) ->
     assert (facts["people"], facts["people_here"], facts["people_reach_it"]) == (12, 12, 4)
 
 
+@pytest.mark.long("journey")
 def test_the_lines_for_people_say_mark_errors_and_published_hands(
     acus: Callable[..., Any], tmp_path: Path
 ) -> None:
@@ -124,6 +129,7 @@ def test_the_lines_for_people_say_mark_errors_and_published_hands(
     assert "not kept" in text
 
 
+@pytest.mark.long("journey")
 def test_scripts_set_no_mark_by_whatever_way(acus: Callable[..., Any], tmp_path: Path) -> None:
     expert = sheet(tmp_path, "judge,first-insertion\nA,60\nExpert,66\nC,72\n")
     for words in (("--experienced", "expert"), ("--angoff", expert)):
@@ -136,6 +142,7 @@ def test_scripts_set_no_mark_by_whatever_way(acus: Callable[..., Any], tmp_path:
     refuse_scripts(["consultants", "experts of ours"])
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -155,6 +162,7 @@ def test_what_sets_no_mark_is_refused_in_one_line(
     assert refusal.count("\n") == 1
 
 
+@pytest.mark.long("journey")
 def test_a_sheet_without_the_exercise_is_refused(acus: Callable[..., Any], tmp_path: Path) -> None:
     path = sheet(tmp_path, "judge,scans-only\nA,60\nB,61\nC,62\n")
     assert "sheet.csv has no column first-insertion" in acus("--angoff", path, code=2)

@@ -47,6 +47,7 @@ def attempt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Bench:
     return bench
 
 
+@pytest.mark.long("journey")
 def test_the_record_is_closed_and_sealed_before_somebody_elses_metric_runs(
     attempt: Bench, tmp_path: Path
 ) -> None:

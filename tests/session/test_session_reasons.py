@@ -268,6 +268,7 @@ def test_what_came_to_pass_while_nobody_looked_has_no_moment():
     assert text == "The tip ended 12.0 mm short of the target."
 
 
+@pytest.mark.long("machine")
 def test_no_reason_on_depth_differs_from_the_scores_own_depth_error():
     """Two hundred needles pushed at random, lost and waited for at random."""
     told = 0

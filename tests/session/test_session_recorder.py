@@ -173,6 +173,7 @@ def test_the_thread_records_while_the_loop_runs(tmp_path: Path) -> None:
     assert not [t for t in threading.enumerate() if t.name == "acus-recorder"]
 
 
+@pytest.mark.long("journey")
 def test_everything_older_than_a_second_is_on_the_disk_before_the_file_is_finished(
     tmp_path: Path,
 ) -> None:

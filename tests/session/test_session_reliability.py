@@ -167,6 +167,7 @@ def acus(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) ->
     return run
 
 
+@pytest.mark.long("journey")
 def test_the_command_prints_a_table_and_the_same_as_json(
     acus: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:

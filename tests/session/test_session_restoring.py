@@ -113,6 +113,7 @@ def kept(place: Place) -> tuple[object, ...]:
     )
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("kind", BAD)
 def test_people_that_cannot_be_taken_change_nothing(one: Place, tmp_path: Path, kind: str) -> None:
     backup(tmp_path / "b", one.folder)
@@ -168,6 +169,7 @@ def test_a_backup_brings_no_student_whom_a_roster_could_not(
     assert [person.pseudonym for person in People().everybody()] == ["Ada"]
 
 
+@pytest.mark.long("journey")
 def test_a_backup_of_another_station_says_exactly_what_is_not_taken(
     one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -206,6 +208,7 @@ def test_a_backup_of_this_station_that_is_restored_at_once_lacks_nothing(
     assert (done.kept, done.not_taken, done.different) == (2, (), ())
 
 
+@pytest.mark.long("journey")
 def test_an_erased_person_comes_back_through_no_stations_backup(
     one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -57,6 +57,7 @@ def attempt(bench: Bench, *risks: Risk, depth: float = 0.04):
     return bench.trainer.end()
 
 
+@pytest.mark.long("machine")
 def test_how_near_the_needle_came_is_in_record_and_score(bench: Bench) -> None:
     result = attempt(bench, Risk("vessel", 5.0, box(*BESIDE)), Risk("lung", 3.0, box(*BEYOND)))
     assert result.record is not None
@@ -91,6 +92,7 @@ def test_a_needle_inside_is_negative_and_scores_no_distance(bench: Bench) -> Non
     assert risk_marks([event_of(mark)]) == (mark,)
 
 
+@pytest.mark.long("machine")
 def test_structures_move_with_the_target(bench: Bench) -> None:
     bench.loop.extra = {"target_shift_y": 0.008}  # towards the head
     upwards = ((-5.0, 20.0, 6.0), (5.0, 30.0, 16.0))
@@ -101,6 +103,7 @@ def test_structures_move_with_the_target(bench: Bench) -> None:
     assert down.closest_mm == pytest.approx(-2.0, abs=0.5)
 
 
+@pytest.mark.long("machine")
 def test_without_risks_or_outside_the_body_there_is_nothing_to_score(bench: Bench) -> None:
     result = attempt(bench)
     assert not [row.name for row in result.score.rows if "risk" in row.name]
@@ -144,6 +147,7 @@ def plate(depth_mm: float) -> SignedDistance:
     return SignedDistance.of(Structure.of("plate", mask, volume))
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("depth_mm", [20.0, 24.3, 30.15, 33.33])
 def test_the_time_inside_a_plate_of_one_voxel_is_that_since_the_tip_reached_it(
     bench: Bench, depth_mm: float

@@ -83,6 +83,7 @@ def key_of(name: str) -> str:
     return People(folder).find(name).key
 
 
+@pytest.mark.long("journey")
 def test_stations_end_with_the_same_attempts_people_courses_and_marks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
 ) -> None:
@@ -108,6 +109,7 @@ def test_stations_end_with_the_same_attempts_people_courses_and_marks(
     assert (again.sent, again.gathered.attempts, again.refused) == (0, 0, ())
 
 
+@pytest.mark.long("journey")
 def test_who_is_erased_is_erased_everywhere_and_in_the_store(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
 ) -> None:
@@ -157,6 +159,7 @@ def _unpacked(path: Path) -> bytes:
         return b"".join(archive.read(name) for name in archive.namelist())
 
 
+@pytest.mark.long("journey")
 def test_a_store_that_was_put_back_to_an_older_state_gets_everything_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -190,6 +193,7 @@ def test_a_store_that_was_put_back_to_an_older_state_gets_everything_again(
     store.close()
 
 
+@pytest.mark.long("journey")
 def test_a_station_that_lost_its_disk_gets_its_own_attempts_back(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
 ) -> None:
@@ -206,6 +210,7 @@ def test_a_station_that_lost_its_disk_gets_its_own_attempts_back(
     assert stored(north) == before
 
 
+@pytest.mark.long("journey")
 def test_remarks_travel_and_the_later_one_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
 ) -> None:
@@ -227,6 +232,7 @@ def test_remarks_travel_and_the_later_one_holds(
     assert said[0] == said[1] == said[2] == {(attempt, "comment"): "seen"}
 
 
+@pytest.mark.long("journey")
 def test_a_course_that_its_station_changed_takes_the_place_of_the_one_that_came_before(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
 ) -> None:
@@ -250,6 +256,7 @@ def test_a_course_that_its_station_changed_takes_the_place_of_the_one_that_came_
     assert any("autumn.yaml" in line for line in result.gathered.different)
 
 
+@pytest.mark.long("journey")
 def test_a_station_that_is_not_known_waits_until_the_instructor_lets_it_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
 ) -> None:
@@ -265,6 +272,7 @@ def test_a_station_that_is_not_known_waits_until_the_instructor_lets_it_in(
     assert set(stored(head)["attempts"]) == {attempt}
 
 
+@pytest.mark.long("journey")
 def test_a_packet_that_was_altered_in_the_store_is_named_and_the_others_are_taken(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -395,6 +403,7 @@ def test_where_the_store_is_is_kept_for_this_user_only(
     assert place_of_store(tmp_path) is None
 
 
+@pytest.mark.long("journey")
 def test_a_server_that_stalls_is_cut_and_this_station_goes_on(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, postgres: Postgres
 ) -> None:
@@ -439,6 +448,7 @@ def test_only_a_station_with_a_password_shares_a_store() -> None:
     require_password(people)
 
 
+@pytest.mark.long("journey")
 def test_what_the_program_exchanges_by_itself_is_not_told_of_whoever_is_here(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -71,6 +71,7 @@ def tamper(folder: Path, text: str) -> None:
         connection.commit()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "change",
     [
@@ -91,6 +92,7 @@ def test_a_row_that_was_edited_is_read_anew_from_its_record(folder: Path, change
     assert Index(folder).attempts() == Index(folder).attempts()
 
 
+@pytest.mark.long("journey")
 def test_a_row_of_another_attempt_or_with_a_seal_of_another_row_is_not_believed(
     folder: Path,
 ) -> None:
@@ -104,6 +106,7 @@ def test_a_row_of_another_attempt_or_with_a_seal_of_another_row_is_not_believed(
     assert everything(folder) == before
 
 
+@pytest.mark.long("journey")
 def test_a_trigger_in_the_index_changes_nothing(folder: Path) -> None:
     before = everything(folder)
     tamper(folder, "CREATE TRIGGER better AFTER INSERT ON attempts BEGIN "
@@ -112,6 +115,7 @@ def test_a_trigger_in_the_index_changes_nothing(folder: Path) -> None:
     assert everything(folder) == before
 
 
+@pytest.mark.long("journey")
 def test_verify_looks_at_the_index_too(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     name = first(folder).stem
     assert run("session", "verify", name) == 0
@@ -128,6 +132,7 @@ def run(*args: str) -> int:
     return 0
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("field", ["score", "conditions", "rules"])
 def test_a_summary_that_was_edited_with_a_right_plain_digest_is_not_believed(
     folder: Path, field: str
@@ -159,6 +164,7 @@ def copied_for(folder: Path, name: str) -> Path:
     return target
 
 
+@pytest.mark.long("journey")
 def test_a_copy_of_anothers_record_counts_nowhere_until_it_is_admitted(folder: Path) -> None:
     path, people = copied_for(folder, "Bob"), People()
     bob = people.find("Bob")
@@ -189,6 +195,7 @@ def test_a_copy_of_anothers_record_counts_nowhere_until_it_is_admitted(folder: P
     assert standings(folder, (), bob) == {}
 
 
+@pytest.mark.long("journey")
 def test_an_admission_holds_for_one_record_and_under_its_seal_only(folder: Path) -> None:
     path = copied_for(folder, "Bob")
     admit([path], "a reason")
@@ -206,6 +213,7 @@ def test_an_admission_holds_for_one_record_and_under_its_seal_only(folder: Path)
         admit([first(folder)], "twice is better")
 
 
+@pytest.mark.long("journey")
 def test_a_signature_that_was_taken_away_lets_nothing_pass(folder: Path) -> None:
     for path in folder.glob("*.mcap"):
         signature_file(path).unlink()
@@ -214,6 +222,7 @@ def test_a_signature_that_was_taken_away_lets_nothing_pass(folder: Path) -> None
     assert [(one.counts, one.passed) for one in index.attempts()] == [(False, None)] * 2
 
 
+@pytest.mark.long("journey")
 def test_where_nothing_was_ever_sealed_everything_counts_as_before(folder: Path) -> None:
     shutil.rmtree(key_file().parent)
     index = Index(folder)
@@ -222,6 +231,7 @@ def test_where_nothing_was_ever_sealed_everything_counts_as_before(folder: Path)
     assert {one.passed for one in index.attempts()} == {True}
 
 
+@pytest.mark.long("journey")
 def test_a_stations_key_that_was_taken_away_lets_nothing_count(folder: Path) -> None:
     People().set_instructor("correct horse battery")
     copied_for(folder, "Bob")
@@ -231,6 +241,7 @@ def test_a_stations_key_that_was_taken_away_lets_nothing_count(folder: Path) -> 
     assert {(one.counts, one.passed) for one in index.attempts()} == {(False, None)}
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "table", ["CREATE TABLE attempts (id TEXT)", "CREATE VIEW attempts AS SELECT 1 AS id"]
 )
@@ -242,6 +253,7 @@ def test_rebuild_mends_an_index_with_a_wrong_table(folder: Path, table: str) -> 
     assert Index(folder).content() == content
 
 
+@pytest.mark.long("journey")
 def test_an_export_says_what_is_signed(folder: Path, tmp_path: Path) -> None:
     copied_for(folder, "Bob")
     assert run("session", "export", "--out", str(tmp_path / "a.csv")) == 0

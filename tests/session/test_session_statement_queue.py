@@ -33,6 +33,7 @@ def test_what_was_put_twice_or_was_sent_waits_once_or_no_more(tmp_path: Path) ->
     assert len(list(queue.folder.glob("waiting-*"))) == 1  # the emptied file has gone
 
 
+@pytest.mark.long("journey")
 def test_any_order_of_putting_and_sending_ends_with_the_same_queue(tmp_path: Path) -> None:
     random_ = random.Random(7)
     for trial in range(60):

@@ -172,6 +172,7 @@ def test_nobody_else_makes_a_station_known(
     assert verdicts(two.folder) == {"verified", "unsigned"}
 
 
+@pytest.mark.long("journey")
 def test_a_renewed_key_keeps_what_was_signed_and_travels_with_its_own_recovery_key(
     one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -86,6 +86,7 @@ def test_a_power_cut_right_after_the_beginning_leaves_head_and_checkpoint(
     recorder.finish()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/sessions.md: later every half second, when the file is also synced to the disk"
 )
@@ -105,6 +106,7 @@ def test_a_power_cut_loses_half_a_second_of_an_attempt_and_a_block(
     recorder.finish()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/sessions.md: The signature is planned on the disk before the record's last bytes are "
     "written"

@@ -65,6 +65,7 @@ def attempt(bench: Bench, field, depth: float = 0.04):
     return bench.trainer.end()
 
 
+@pytest.mark.long("machine")
 def test_layer_after_layer_is_told_where_it_lies(bench: Bench) -> None:
     result = attempt(bench, body())
     met = result.trajectory.met
@@ -78,6 +79,7 @@ def test_layer_after_layer_is_told_where_it_lies(bench: Bench) -> None:
     assert (values["bone_contacts"], values["lung_crossed"]) == (0.0, 0.0)
 
 
+@pytest.mark.long("machine")
 def test_it_is_in_the_record_and_scored_from_it_again(bench: Bench) -> None:
     result = attempt(bench, body(rib(30.0)))
     recording = read_recording(result.record)
@@ -90,6 +92,7 @@ def test_it_is_in_the_record_and_scored_from_it_again(bench: Bench) -> None:
     assert kinds == ["skin", "fat", "muscle", "organ", "bone", "organ"]
 
 
+@pytest.mark.long("machine")
 def test_a_rib_fails_where_it_is_forbidden_and_only_there(bench: Bench) -> None:
     score = attempt(bench, body(rib(30.0))).score
     assert score.hard_fails == ()
@@ -106,6 +109,7 @@ def test_a_rib_fails_where_it_is_forbidden_and_only_there(bench: Bench) -> None:
     assert again.recomputed(rules=rules).hard_fails == (said,)
 
 
+@pytest.mark.long("machine")
 def test_bone_that_stops_the_tip_at_its_surface_is_touched(bench: Bench) -> None:
     result = attempt(bench, body(rib(44.1)), depth=0.040)
     (bone,) = (one for one in result.trajectory.met if one.kind == "bone")
@@ -114,6 +118,7 @@ def test_bone_that_stops_the_tip_at_its_surface_is_touched(bench: Bench) -> None
     assert bone.is_forbidden(("bone",))
 
 
+@pytest.mark.long("machine")
 def test_the_largest_force_of_each_tissue_is_that_while_the_tip_was_in_it(bench: Bench) -> None:
     """A ramp of 0.1 N for each mm of depth, and 20 N while the tip stands at its end, on a rib."""
     attempt(bench, body(rib(44.1)))
@@ -134,6 +139,7 @@ def test_the_largest_force_of_each_tissue_is_that_while_the_tip_was_in_it(bench:
     assert {one.force_n for one in older} == {None}
 
 
+@pytest.mark.long("machine")
 def test_the_force_along_the_needle_stands_in_the_record_and_its_table(bench: Bench) -> None:
     attempt(bench, body())
     recording = read_recording(next(bench.folder.glob("*.mcap")))
@@ -159,11 +165,13 @@ def test_who_felt_the_field_is_told_by_the_head_of_the_record() -> None:
     assert not feels_along(looked, {})
 
 
+@pytest.mark.long("machine")
 def test_a_rib_beside_the_path_is_not_met(bench: Bench) -> None:
     result = attempt(bench, body(rib(30.0, beside=5.0)))
     assert "bone" not in [one.kind for one in result.trajectory.met]
 
 
+@pytest.mark.long("machine")
 def test_the_breath_that_moves_the_target_moves_no_rib(bench: Bench) -> None:
     """A control scan's whole picture moves with the target; the ribs of a patient do not."""
     field = body(rib(15.2, beside=-6.3, radius=3.2))
@@ -179,6 +187,7 @@ def test_the_breath_that_moves_the_target_moves_no_rib(bench: Bench) -> None:
     assert side == pytest.approx(-6.0, abs=0.1)  # the liver, which went along, is met elsewhere
 
 
+@pytest.mark.long("machine")
 def test_unknown_tissue_is_neither_met_nor_failed(bench: Bench) -> None:
     field = body()
     hole = np.array(field.labels)
@@ -188,6 +197,7 @@ def test_unknown_tissue_is_neither_met_nor_failed(bench: Bench) -> None:
     assert result.score.hard_fails == ()
 
 
+@pytest.mark.long("machine")
 def test_lung_is_crossed_twice_at_its_pleura_with_vessels_in_it(bench: Bench) -> None:
     lung = (Kind.LUNG, "", lambda points: np.abs(points[:, 1] - ENTRY[1] - 27.0) - 5.0)
     vessel = (Kind.VESSEL, "lung vessel", ball(ENTRY + [0.0, 27.0, 0.0], 2.0))
@@ -199,6 +209,7 @@ def test_lung_is_crossed_twice_at_its_pleura_with_vessels_in_it(bench: Bench) ->
     assert values["vessels_touched"] == 0.0
 
 
+@pytest.mark.long("machine")
 def test_a_nodule_that_the_needle_goes_through_is_no_aerated_lung(bench: Bench) -> None:
     lung = (Kind.LUNG, "", lambda points: np.abs(points[:, 1] - ENTRY[1] - 55.0) - 25.0)
     nodule = (Kind.ORGAN, "nodule", ball(ENTRY + [0.0, 60.0, 0.0], 3.0))  # holds the target
@@ -217,6 +228,7 @@ def test_without_a_field_nothing_is_told_and_nothing_asked(bench: Bench) -> None
     assert tissues_met(()) is None
 
 
+@pytest.mark.long("machine")
 def test_damaged_events_are_left_out(bench: Bench) -> None:
     met = attempt(bench, body()).trajectory.met[0]
     event = event_of(met)
@@ -240,6 +252,7 @@ def test_rules_refuse_a_tissue_that_there_is_none_of() -> None:
         ScoreRules(forbidden=("bone", "bone"))
 
 
+@pytest.mark.long("machine")
 def test_a_plan_of_the_students_own_is_judged_and_scored_from_the_record_again(
     bench: Bench,
 ) -> None:
@@ -261,6 +274,7 @@ def test_a_plan_of_the_students_own_is_judged_and_scored_from_the_record_again(
     assert reasons("plan_score", past)[0] == "The path comes within 4.0 mm of rib, 20 mm deep."
 
 
+@pytest.mark.long("machine")
 def test_the_path_report_of_a_lung_biopsy_is_scored_from_the_record_alone(bench: Bench) -> None:
     bench.trainer._exercise.is_own_plan = True
     field = body(rib(14.0, 0.0), (Kind.LUNG, "lung", beyond((0, 1, 0), ENTRY[1] + 20.0)))
@@ -282,6 +296,7 @@ def test_the_path_report_of_a_lung_biopsy_is_scored_from_the_record_alone(bench:
     assert recording.trajectory().planned.lung == report
 
 
+@pytest.mark.long("machine")
 def test_lobes_one_after_the_other_are_one_way_through_the_lung(bench: Bench) -> None:
     y = ENTRY[1]
     bulla = ball(ENTRY + [0.0, 28.0, 0.0], 3.0)
@@ -298,6 +313,7 @@ def test_lobes_one_after_the_other_are_one_way_through_the_lung(bench: Bench) ->
     assert values["lung_crossed"] == pytest.approx(20.0, abs=0.7)
 
 
+@pytest.mark.long("machine")
 def test_a_plan_that_was_given_is_nobodys_to_be_judged(bench: Bench) -> None:
     result = attempt(bench, body(rib(20.0, 8.0)))
     assert result.trajectory.planned is None
@@ -305,6 +321,7 @@ def test_a_plan_that_was_given_is_nobodys_to_be_judged(bench: Bench) -> None:
     assert judged_plan(result.events) is None
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("damage", [{"points": 1e9}, {"meets": 3}, {"clear_mm": "far"}])
 def test_a_damaged_word_on_a_plan_is_none(bench: Bench, damage) -> None:
     bench.trainer._exercise.is_own_plan = True

@@ -157,6 +157,7 @@ def test_targets_are_touched_in_their_order_only_and_everybody_aims_at_the_prese
     np.testing.assert_allclose(row[sv.PATH], snapshot.touch.aim.axis, atol=1e-15)
 
 
+@pytest.mark.long("journey")
 def test_blind_cameras_touch_nothing(tool):
     tool.go(tool.task.p_targets[0] + np.array([0.01, 0.0, 0.0]), 2.0)
     assert tool.trainer.snapshot().state in (State.INSERTING, State.HOLDING)
@@ -169,6 +170,7 @@ def test_blind_cameras_touch_nothing(tool):
     assert tool.touched == 1
 
 
+@pytest.mark.long("journey")
 def test_record_replay_and_score_tell_the_same(tool, tmp_path):
     for target in tool.task.p_targets[:3]:
         tool.go(target, 2.0)

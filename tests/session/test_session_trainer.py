@@ -385,6 +385,7 @@ def test_after_a_fault_of_the_program_the_forces_are_off_and_stay_off(
     bench.trainer.close()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("kind", "lasts"), [("align", 2.7), ("depth", None), ("breath", None), ("repeat", 9.0)]
 )

@@ -33,6 +33,7 @@ def shakes_as_the_page_says() -> None:
     assert state[sv.FORCE_X] == pytest.approx(0.3 * np.sin(2.0 * np.pi * 0.09))
 
 
+@pytest.mark.long("machine")
 def test_an_effect_in_the_users_own_folder_is_found_just_the_way_the_page_says(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -42,6 +43,7 @@ def test_an_effect_in_the_users_own_folder_is_found_just_the_way_the_page_says(
     shakes_as_the_page_says()
 
 
+@pytest.mark.long("machine")
 def test_an_effect_in_a_folder_appended_to_the_path_is_found_too(folder: Path) -> None:
     name, code = example("How to add an effect")
     (folder / name).write_text(code, encoding="utf-8")
@@ -84,6 +86,7 @@ def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message:
         declaration("hand_tremor")
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("added", "message"),
     [

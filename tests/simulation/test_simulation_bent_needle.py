@@ -129,6 +129,7 @@ def test_a_wandering_channel_is_remembered_where_the_bent_tip_cut_it(gauge: int)
     assert np.linalg.norm(state[sv.TIP_OFFSET]) > 1e-3
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(("gauge", "limit"), [(18, 2e-5), (20, 2e-5), (22, 5e-5)])
 def test_the_shape_from_ten_numbers_is_that_of_the_fine_beam(gauge: int, limit: float) -> None:
     for depth in (0.02, 0.06, 0.1):

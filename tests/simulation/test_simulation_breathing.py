@@ -96,6 +96,7 @@ def test_the_target_never_jumps_whenever_it_is_told(told: float) -> None:
         assert np.linalg.norm(np.diff(part, axis=0), axis=1).max() < 0.002 * 0.035
 
 
+@pytest.mark.long("machine")
 def test_where_holds_lie_spreads_as_asked() -> None:
     places = [commanded([(0.0, True)], 7.0, draws=float(k), period=2.0)[-1, 1] for k in range(40)]
     assert 0.0015 < float(np.std(places)) < 0.0035
@@ -156,6 +157,7 @@ def test_time_alone_says_where_a_varying_organ_is() -> None:
     assert np.array_equal(varied(times), varied(backwards)[1:][::-1])
 
 
+@pytest.mark.long("machine")
 def test_no_breath_begins_with_a_jump_not_even_where_the_tile_repeats() -> None:
     worst = {"depth_variation": 0.4, "period_variation": 0.4, "anterior_lag": 1.2}
     lasts, _ = breaths_of(**worst)

@@ -152,6 +152,7 @@ print(compiled, stages, loaded)
 """
 
 
+@pytest.mark.long("machine")
 def test_a_dropped_effect_is_not_even_imported() -> None:
     done = subprocess.run(
         [sys.executable, "-c", DROPPED], capture_output=True, text=True, check=True, timeout=110

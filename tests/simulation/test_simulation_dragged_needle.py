@@ -218,6 +218,7 @@ def test_the_device_that_renders_the_drag_is_a_consumer_of_breathing() -> None:
     assert any("lateral_tissue" in who for who in kept["breathing"].consumers)
 
 
+@pytest.mark.long("machine")
 def test_shipped_exercises_that_breathe_drag_the_needle_and_no_others_do() -> None:
     def moved(name: str) -> bool:
         chosen = load_exercise(name)

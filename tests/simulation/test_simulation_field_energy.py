@@ -184,6 +184,7 @@ def is_passive(needle: PushedNeedle) -> bool:
     return bool((needle.worst <= ROUNDING).all() and needle.most <= ROUNDING)
 
 
+@pytest.mark.long("machine")
 @settings(max_examples=12, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 @given(SEGMENTS)
 def test_pushes_pulls_and_tilts_give_out_no_more_than_was_stored_and_breathing_supplied(
@@ -218,6 +219,7 @@ def test_a_million_ticks_along_and_across_give_out_no_more_than_was_stored() -> 
     assert needle.state[sv.PUNCTURES] > 100.0
 
 
+@pytest.mark.long("machine")
 def test_the_count_of_energy_would_see_a_law_that_gives_out() -> None:
     """Cutting that pulls the needle in with 0.5 N besides, and costs nothing on the way out."""
     needle = PushedNeedle()

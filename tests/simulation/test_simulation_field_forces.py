@@ -132,6 +132,7 @@ def wander(ticks: int, seed: int) -> tuple[float, float, float, float]:
     return given, supplied, stored, worst
 
 
+@pytest.mark.long("machine")
 def test_a_hundred_thousand_pushes_and_tilts_give_out_no_more_than_was_supplied() -> None:
     given, supplied, _, worst = wander(100_000, 3)
     assert worst < 1e-6

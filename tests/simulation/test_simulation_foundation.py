@@ -64,6 +64,7 @@ def hermite(n: int, ei: float) -> float:
     return float(hermite_moment(np.full(n, K), ei, 0.1, TURN, *work))
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("way", "order", "coarse"), [(difference, 2, 20), (hermite, 4, 8)], ids=["second", "fourth"]
 )

@@ -88,6 +88,7 @@ def _left(hand: Hand) -> tuple[FloatArray, FloatArray]:
     return angle, np.hypot(aside, 1e3 * (ends[:, 2] - DEPTH))
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("name", "degrees", "millimetres"),
     [
@@ -104,6 +105,7 @@ def test_hands_leave_errors_as_published(
     assert np.mean(distance) == pytest.approx(millimetres[0], abs=millimetres[1])
 
 
+@pytest.mark.long("machine")
 def test_no_hand_is_better_than_the_best_that_was_published() -> None:
     angle, distance = _left(EXPERT)
     assert 0.4 <= np.mean(angle) <= 1.9

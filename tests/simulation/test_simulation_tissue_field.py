@@ -74,6 +74,7 @@ THIN = (
 )
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("speed", [0.002, 0.1, 1.0])
 def test_no_wall_is_jumped_over_and_each_is_told_once_at_its_place(speed: float) -> None:
     field = field_of(layered(*THIN), spacing=0.5)
@@ -100,6 +101,7 @@ def test_a_wall_ahead_is_told_with_what_lies_behind_it_and_its_normal() -> None:
     assert 0.0025 < ahead[0, sv.WALL] < 0.0031
 
 
+@pytest.mark.long("machine")
 def test_going_back_tells_no_wall_as_met() -> None:
     stages = stages_in(scene_in(field_of(layered(*THIN), spacing=0.5), "tissue_field"))
     state = sv.empty_state()

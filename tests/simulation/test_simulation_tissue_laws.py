@@ -217,6 +217,7 @@ def driven(
     return np.array(forces), state
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(("name", "model"), MODELS.items())
 def test_a_field_of_the_same_walls_is_felt_as_the_layers_are(name: str, model: str) -> None:
     path = np.concatenate([ramp(-0.002, 0.06), ramp(0.06, -0.002), ramp(-0.002, 0.05)])

@@ -72,12 +72,14 @@ def turned(level: float, ways: list[float], seeds: int = 150, pause: float = 0.5
     return np.array(angles)
 
 
+@pytest.mark.long("machine")
 def test_a_push_that_nobody_mends_leaves_what_freehand_insertions_leave() -> None:
     angles = turned(1, [0.085])
     assert angles.mean() == pytest.approx(FREEHAND, abs=3.0 * ITS_SD / np.sqrt(len(angles)))
     assert angles.std() <= ITS_SD
 
 
+@pytest.mark.long("machine")
 def test_the_error_grows_in_proportion_to_the_way_and_pauses_make_it_less() -> None:
     whole, half = turned(1, [0.08]), turned(1, [0.04])
     assert half.mean() == pytest.approx(0.5 * whole.mean(), rel=0.1)
@@ -85,11 +87,13 @@ def test_the_error_grows_in_proportion_to_the_way_and_pauses_make_it_less() -> N
     assert np.sqrt((pieces**2).mean() / (whole**2).mean()) == pytest.approx(8**-0.5, rel=0.25)
 
 
+@pytest.mark.long("machine")
 def test_who_pulls_out_goes_another_way_than_he_came() -> None:
     there_and_back = turned(1, [0.06, -0.06])
     assert np.median(there_and_back) > 1.0
 
 
+@pytest.mark.long("machine")
 def test_a_hand_that_means_to_hold_still_does_as_measured() -> None:
     for level, measured, tremor in ((1, HELD_STILL, LEVEL_1.tremor), (5, AT_WORK, LEVEL_5.tremor)):
         rows = np.concatenate([Hand(level, seed).wait(20.0)[2000:] for seed in range(1, 9)])
@@ -110,6 +114,7 @@ def test_a_hand_of_level_0_is_steady_to_the_bit() -> None:
     assert not hand.wait(1.0).any()
 
 
+@pytest.mark.long("machine")
 def test_the_hand_is_the_worse_the_higher_the_level() -> None:
     means = [turned(level, [0.03], seeds=100).mean() for level in (1, 2, 3, HIGHEST)]
     assert means[0] < means[1] < means[2] < means[3]
@@ -150,6 +155,7 @@ def left(seed: int, speed: float = SPEED, click: float = 0.0) -> float:
     return hand.turned
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(("speed", "click"), [(5e-4, 0.0), (1.9e-3, 0.0), (0.2e-3 / 0.12, 0.12)])
 def test_a_push_leaves_its_line_however_slow_it_is(speed: float, click: float) -> None:
     """The last is a fine wheel: 0.2 mm each 120 ms, as somebody turns who means to outwit it."""
@@ -158,6 +164,7 @@ def test_a_push_leaves_its_line_however_slow_it_is(speed: float, click: float) -
     assert slow == pytest.approx(fast, rel=0.1)
 
 
+@pytest.mark.long("machine")
 def test_a_hand_that_swings_back_after_a_click_makes_no_other_push_of_it() -> None:
     """Coarse clicks without a rest: 1 mm each 150 ms, faster than the weight comes to rest."""
     clicked = np.array([left(seed, 1e-3 / 0.15, 0.15) for seed in range(1, 60)])

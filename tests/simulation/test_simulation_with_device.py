@@ -96,6 +96,7 @@ def test_guidance_brings_the_novice_nearer() -> None:
     assert miss(attempt("novice", 1, 1.0))[0] < 0.8 * miss(attempt("novice", 1, 0.0))[0]
 
 
+@pytest.mark.long("machine")
 def test_a_run_is_the_same_twice(guided_expert: FloatArray) -> None:
     np.testing.assert_array_equal(attempt("expert", 1, 1.0), guided_expert)
 

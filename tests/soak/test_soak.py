@@ -18,10 +18,12 @@ def test_nothing_is_ever_no_number_and_no_force_is_beyond_five_newton(found):
     assert found.under_force > 0.2, "the hand did feel something"
 
 
+@pytest.mark.long("machine")
 def test_every_effect_that_ships_was_played(found):
     assert {name.split()[0] for name in found.effects} == set(layered_effects())
 
 
+@pytest.mark.long("machine")
 def test_no_memory_grows_and_rest_leaves_no_subnormal_numbers(found):
     assert found.grown < 16 << 20
     assert found.subnormal == 0

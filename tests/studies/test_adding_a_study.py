@@ -28,10 +28,12 @@ def works_as_the_page_says(folder: Path, name: str, code: str) -> None:
     assert said == ("sine_series", "Sine by its series", "math.sin, 1e-16")
 
 
+@pytest.mark.long("statistics")
 def test_a_study_is_added_just_the_way_the_page_says(folder: Path) -> None:
     works_as_the_page_says(folder, *example("How to add a study"))
 
 
+@pytest.mark.long("statistics")
 def test_a_study_in_the_users_own_folder_is_found_too(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -39,6 +41,7 @@ def test_a_study_in_the_users_own_folder_is_found_too(
     works_as_the_page_says(tmp_path, *example("How to add a study"))
 
 
+@pytest.mark.long("statistics")
 def test_a_file_without_a_study_is_named(folder: Path) -> None:
     (folder / "empty_study.py").write_text("STUDY = 3\n", encoding="utf-8")
     with pytest.raises(StudyError, match=r"empty_study\.py has no DECLARATION"):

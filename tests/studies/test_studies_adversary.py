@@ -97,6 +97,7 @@ def _holes(patient, seed):
     return tried, {hole for one in tried for hole in one.verdict.holes}
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize(
     ("patient", "hole"),
@@ -118,6 +119,7 @@ def test_each_planted_hole_is_shown_within_500_attempts(patient, hole, seed):
         assert max(attack.covered_share, attack.covered_astray) > 0.0
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seed", [1])
 def test_a_judgement_without_a_hole_shows_none_though_attempts_pass_and_ribs_are_met(seed):
     tried, holes = _holes(Patient(), seed)
@@ -162,6 +164,7 @@ def test_no_hole_is_an_attempt_that_missed_by_less_than_the_length_of_a_nodule()
     assert AttackVerdict(80.0, False, ("rib",), 1.0).holes == ()
 
 
+@pytest.mark.long("statistics")
 def test_a_search_that_was_cancelled_goes_on_where_it_stopped_and_ends_as_a_whole_one(tmp_path):
     whole = Patient(rib_fails=False)
     expected = attack_exercises(None, lambda *_: whole, ["x"], 150, 1, tmp_path / "whole")
@@ -189,6 +192,7 @@ def test_a_changed_exercise_or_seed_begins_another_journal(tmp_path):
     assert len(list(tmp_path.iterdir())) == 2
 
 
+@pytest.mark.long("statistics")
 def test_the_study_names_its_camera_model_and_answers_no_where_it_shows_a_hole(tmp_path):
     sound = attack_exercises(None, lambda *_: Patient(), ["x"], 100, 1, tmp_path)
     assert sound.passed

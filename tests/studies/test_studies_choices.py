@@ -36,6 +36,7 @@ def test_the_closed_form_of_the_inverse_is_exact_and_newton_squares_its_error():
     assert worst["Newton 4"] < 1e-11
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("number", range(4))
 def test_the_finest_substeps_of_the_robot_are_a_reference_good_to_a_micrometre(number):
     setting = find_study("plant_substeps").settings[number]

@@ -33,6 +33,7 @@ def test_the_survey_is_there_by_its_name():
     assert study.quick is not None
 
 
+@pytest.mark.long("statistics")
 def test_no_error_is_above_what_was_asked_and_all_lie_within_a_hundredth_below(table):
     assert len(table) == len(RULES)
     for row in table:
@@ -41,6 +42,7 @@ def test_no_error_is_above_what_was_asked_and_all_lie_within_a_hundredth_below(t
         assert row["holds"] == "yes"
 
 
+@pytest.mark.long("statistics")
 def test_virtual_students_are_called_as_often_as_the_chain_says(table):
     """Four standard errors of ten thousand students; the survey's own loop knows no chain."""
     for row in table:
@@ -88,6 +90,7 @@ def test_a_relapse_is_seen_sooner_after_a_gap_at_the_price_of_more_false_ones():
     assert practising[2] == pytest.approx(when.mean(), rel=4.0 / np.sqrt(2000))
 
 
+@pytest.mark.long("statistics")
 def test_forecasts_hold_at_least_as_often_as_they_state():
     for row in forecasts(300, np.random.default_rng(5)).rows:
         assert min(row[1:]) > 0.80 - 3.0 * np.sqrt(0.16 / 300)

@@ -8,6 +8,7 @@ from app.studies import contact, friction
 from app.studies.runner import find_study, run
 
 
+@pytest.mark.long("statistics")
 def test_the_exact_hold_is_within_1e_9_of_the_closed_form_from_1_to_500_000_n_per_m() -> None:
     result = run("contact", repeats=1)
     errors = [point.error for point in result.points if point.way == "exact hold"]
@@ -24,6 +25,7 @@ def test_explicit_euler_is_seen_to_fail_at_a_stiff_contact() -> None:
     assert errors["50000 N/m"] > 1e6
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("share", [share for share in friction.SHARES if share <= 1.0])
 def test_only_the_default_law_keeps_its_sign_in_a_still_hand(share: float) -> None:
     changes = {law: friction.still_hand(law, share / friction.COUNT)[0] for law in friction.LAWS}

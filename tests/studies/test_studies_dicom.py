@@ -25,6 +25,7 @@ def peer():
     asked.close()
 
 
+@pytest.mark.long("statistics")
 def test_an_even_series_is_read_as_the_peer_reads_it(tmp_path, peer):
     Slices().write(tmp_path / "ct")
     (series,) = scan_folder(tmp_path / "ct").series
@@ -93,6 +94,7 @@ def facts(pydicoms, peer):
     return of
 
 
+@pytest.mark.long("statistics")
 def test_each_of_pydicoms_files_is_refused_for_the_reason_that_stands_in_the_table(pydicoms):
     expected = {name: reason for reason, names in REFUSED.items() for name in names.split()}
     assert len({case.name for case in pydicoms}) == len(pydicoms)

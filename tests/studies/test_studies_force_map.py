@@ -40,6 +40,7 @@ def test_mujoco_feels_what_is_wanted_and_twice_that_of_the_printed_law():
     assert np.linalg.norm(felt(where, tool_force(where, True))) == pytest.approx(4.0, abs=1e-3)
 
 
+@pytest.mark.long("statistics")
 def test_the_study_condemns_the_printed_law_only():
     pytest.importorskip("mujoco")
     result = run("force_map", repeats=1)

@@ -47,6 +47,7 @@ def test_without_a_fix_the_icube_holds_with_no_more_than_its_longest_lever_allow
         assert release(profile, pose, Rule.PROFILE, measured=False, runs=1).pull <= 1.85
 
 
+@pytest.mark.long("statistics")
 def test_the_study_has_its_tables_pictures_and_what_they_say(monkeypatch):
     for name, value in (("POSES", 1), ("AROUND", 2), ("DEPTHS_MM", (0.0,)), ("FACTORS", (1.0,))):
         monkeypatch.setattr(let_go, name, value)

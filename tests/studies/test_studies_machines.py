@@ -14,6 +14,7 @@ NAMES = ["pantograph (icube)", "tensegrity (paper)"]
 """The program's own; machines of plug-ins follow."""
 
 
+@pytest.mark.long("statistics")
 def test_all_machines_are_asked_the_same():
     found = {m.name: machines.at_tilt(m, np.deg2rad(20.0)) for m in machines.machines()}
     assert list(found)[:2] == NAMES

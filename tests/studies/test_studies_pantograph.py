@@ -36,6 +36,7 @@ def test_everything_closes_to_rounding():
     assert found["45° cone: q1"]["largest"] < 1e-14
 
 
+@pytest.mark.long("statistics")
 def test_newton_finds_one_singular_place_above_the_motors():
     above = [
         row for row in pantograph_tables.singular_places(GEOMETRY).rows if "above" in str(row[2])
@@ -63,6 +64,7 @@ def test_the_code_gives_what_its_own_failing_unit_tests_show():
     assert printed_formulas.code_right_angle(GEOMETRY, wrong)[0] == pytest.approx(-0.8095, abs=1e-4)
 
 
+@pytest.mark.long("statistics")
 def test_the_sizes_of_the_errors_are_those_of_the_errata():
     found = rows(pantograph_tables.printed_errors(GEOMETRY))
     assert found["thesis 4.5 and code, system inverse"]["largest, 30° cone"] == pytest.approx(
@@ -111,6 +113,7 @@ def test_the_printed_law_is_twice_too_strong_at_45_degrees():
     assert last["felt minus wanted [N]"] < 1e-12
 
 
+@pytest.mark.long("statistics")
 def test_five_newtons_at_the_skin_need_nearly_twice_the_torque_of_the_thesis():
     found = rows(pantograph_tables.torques(PROFILE))
     assert found[0.0]["upright, 5 N [N·m]"] == pytest.approx(1.079, abs=1e-3)

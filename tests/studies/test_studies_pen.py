@@ -1,6 +1,7 @@
 """The study of the pen: a few poses of it."""
 
 import numpy as np
+import pytest
 
 from app.core.progress import Progress
 from app.studies import pen
@@ -8,18 +9,21 @@ from app.studies.pen import Outcome, Setup, rendered, trials
 from app.tracking.confidence import chi_square_quantile
 
 
+@pytest.mark.long("statistics")
 def test_rendered_pictures_give_the_tip_to_a_fraction_of_a_millimetre():
     found = rendered(Setup(), poses=6)
     assert found.share > 0.6
     assert np.median(found.tip) < 1e-3
 
 
+@pytest.mark.long("statistics")
 def test_the_ellipsoid_holds_in_trials_with_everything_declared_drawn_anew():
     found = trials(60)
     assert found.share > 0.5, "single faces are refused where nothing but the picture is known"
     assert np.mean(found.distance < chi_square_quantile(0.95, 3)) >= 0.88
 
 
+@pytest.mark.long("statistics")
 def test_the_study_has_a_row_for_each_condition_and_says_what_the_trials_gave(monkeypatch):
     monkeypatch.setattr(pen, "SETUPS", (Setup(), Setup(distance=0.35)))
     monkeypatch.setattr(pen, "rendered", lambda setup: rendered(setup, poses=3))

@@ -38,11 +38,13 @@ def facts() -> list[dict[str, Any]]:
     return json.loads(FACTS.read_text(encoding="utf-8")) if FACTS.exists() else []
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.name)
 def test_what_is_followed_holds(case: PublishedCase) -> None:
     assert case.holds(case.ours()) is case.chosen
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.skipif(not FACTS.exists(), reason=f"{FACTS} is not here")
 @pytest.mark.parametrize("fact", facts(), ids=lambda fact: fact["id"])
 def test_every_shared_case_of_effects_holds(fact: dict[str, Any]) -> None:
@@ -167,6 +169,7 @@ def test_tissues_are_had_by_name_and_version() -> None:
         tissues.tissue("liver", "newest")
 
 
+@pytest.mark.long("statistics")
 def test_what_only_reads_a_value_is_called_a_definition_and_not_counted_as_holding() -> None:
     verdicts = {row[0]: row[9] for row in measure().sheets[0].rows}
     for name in ("liver-J", "fat-J", "liver-E", "fat-E", "liver-capsule-total"):
@@ -185,6 +188,7 @@ def test_young_modulus_of_a_side_stiffness_is_that_of_a_rod_in_an_organ() -> Non
     assert by_name["liver-E"].ours() == pytest.approx(3.0 * shear, rel=1e-9)
 
 
+@pytest.mark.long("statistics")
 def test_the_page_is_what_the_study_prints() -> None:
     written = published_page.PAGE.read_text(encoding="utf-8")
     assert written == published_page.text(), "run python -m tools.published_page"

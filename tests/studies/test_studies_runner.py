@@ -164,6 +164,7 @@ def test_times_are_written_in_the_unit_that_suits(seconds: float, text: str) -> 
     assert duration(seconds) == text
 
 
+@pytest.mark.long("statistics")
 def test_the_lateral_tissue_study_says_that_a_rigid_needle_is_felt_to_be_wrong() -> None:
     result = run("lateral_tissue", repeats=1)
     assert result.failures == ()
@@ -173,6 +174,7 @@ def test_the_lateral_tissue_study_says_that_a_rigid_needle_is_felt_to_be_wrong()
     assert worst["differences 120"] < 1e-3
 
 
+@pytest.mark.long("statistics")
 def test_the_slice_study_orders_the_ways_by_error() -> None:
     result = run("slice_interpolation", repeats=1)
     assert result.failures == ()

@@ -17,6 +17,7 @@ def rows(sheet, key=0):
     return {row[key]: dict(zip(sheet.columns, row, strict=True)) for row in sheet.rows}
 
 
+@pytest.mark.long("statistics")
 def test_the_assumed_tilts_cover_both_cones_and_tilts_of_zero_neither():
     found = tensegrity.workspace().rows
     reached = {(row[0], row[2]): row[3:6] for row in found}
@@ -65,6 +66,7 @@ def test_tensions_are_in_equilibrium():
         assert row[2] < 1e-10
 
 
+@pytest.mark.long("statistics")
 def test_its_pictures_can_be_drawn():
     for draw in (tensegrity.draw_maps, tensegrity.draw_stiffness, tensegrity.draw_workspace):
         canvas = figure.Figure(figsize=(6.0, 3.0))

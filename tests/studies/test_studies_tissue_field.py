@@ -29,6 +29,7 @@ def felt(codes: list[int], force: float = 0.0) -> NeedleFeel:
     return NeedleFeel(np.array(codes), np.full(count, force), np.zeros(count), np.zeros(count))
 
 
+@pytest.mark.long("statistics")
 def test_the_reference_has_each_organ_where_the_anatomy_says() -> None:
     from app.imaging.field.from_recipe import TABLE
 
@@ -47,6 +48,7 @@ def test_the_reference_has_each_organ_where_the_anatomy_says() -> None:
     assert TABLE[int(recipe().codes_at(np.array(known.lesion_mm))[0])].words == "lesion"
 
 
+@pytest.mark.long("statistics")
 def test_the_field_has_what_the_reference_has_but_at_boundaries() -> None:
     entry = np.array(anatomy(1001).entry_mm)
     field = make(load_ct(phantom_series(1001)), (), entry, 60.0)
@@ -80,6 +82,7 @@ def test_a_path_begins_outside_and_goes_round_an_arc_of_its_curvature() -> None:
         assert np.linalg.norm(path.breath, axis=1).max() <= field_paths.MOST_BREATH_MM * 1e-3
 
 
+@pytest.mark.long("statistics")
 def test_bent_needles_in_a_patient_who_breathes_meet_what_the_recipe_has() -> None:
     def silent(_: float, __: str) -> None: ...
 

@@ -37,6 +37,7 @@ def test_the_thesis_rig_gives_the_size_that_its_figure_shows():
     assert 0.012 < np.mean(printed) < 0.018
 
 
+@pytest.mark.long("statistics")
 def test_the_study_of_triangulation_runs(few):
     result = run("stereo", repeats=1)
     assert result.failures == ()
@@ -45,6 +46,7 @@ def test_the_study_of_triangulation_runs(few):
     assert {row[0] for row in sheet.rows} == {"thesis", "wide"}
 
 
+@pytest.mark.long("statistics")
 def test_the_default_filter_is_calm_at_rest_and_close_in_motion():
     errors = {
         name: [depth_motion.shown_error(make(), path) for path in depth_motion.PATHS.values()]

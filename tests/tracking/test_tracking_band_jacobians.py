@@ -84,6 +84,7 @@ def _error(picture, move, columns):
     return np.abs(found - wanted).max() / np.abs(wanted).max()
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("move", range(MOVES))
 def test_every_derivative_of_the_shares_is_the_quotient_of_differences(blunt, move):
     for columns in (slice(0, BAND), slice(BAND, BAND + SPLINES), slice(BAND + SPLINES, None)):

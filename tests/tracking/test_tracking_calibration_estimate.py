@@ -112,6 +112,7 @@ def test_the_covariance_of_one_camera_is_that_of_repeated_trials() -> None:
     assert np.mean(distances) == pytest.approx(len(keep), rel=0.2)
 
 
+@pytest.mark.long("statistics")
 def test_the_covariance_of_two_cameras_pose_is_that_of_repeated_trials() -> None:
     rig, trials = usual_rig(), 60
     poses = rig.poses(6, 3)
@@ -250,6 +251,7 @@ def test_too_few_views_and_views_of_different_sizes_are_refused() -> None:
         calibrate_mono([other, *left], "left")
 
 
+@pytest.mark.long("statistics")
 def test_lenses_and_pose_err_together_as_the_joint_covariance_says() -> None:
     rig, trials = usual_rig(), 40
     poses = rig.poses(6, 3)
@@ -298,6 +300,7 @@ def _triangulated(rig: Rig, state: AdjustedState, pixels: list[np.ndarray]) -> n
     return triangulated(left, right, *pixels)[0]
 
 
+@pytest.mark.long("statistics")
 def test_no_pose_keeps_refined_corners_where_the_unrefined_ones_fit_better() -> None:
     rig, rng = usual_rig(), np.random.default_rng(16)
     poses = rig.poses(10, 4)

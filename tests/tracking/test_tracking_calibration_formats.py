@@ -519,6 +519,7 @@ def test_damaged_files_of_opencv_end_in_a_named_error_and_never_end_the_program(
     assert min(outcomes.values()) > 5
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     "text",
     [
@@ -549,6 +550,7 @@ def test_what_is_no_matrix_in_a_file_of_opencv_is_named(tmp_path: Path, text: st
 ONE = "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 1\n   cols: 1\n   dt: d\n   data: [ 1. ]\n"
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("text", "words"),
     [

@@ -25,6 +25,7 @@ def test_white_noise_of_the_corners_is_no_misfit_of_the_lens() -> None:
     assert misfit(0.0, 0.2) < 0.05
 
 
+@pytest.mark.long("statistics")
 def test_waves_that_no_lens_follows_are_found_under_the_noise() -> None:
     quiet = misfit(0.3, 0.02)
     assert 0.08 < quiet < 0.25

@@ -86,6 +86,7 @@ def test_boards_held_back_come_out_true(result: StereoResult) -> None:
     assert value.epipolar_px < 0.3
 
 
+@pytest.mark.long("statistics")
 def test_corner_orders_that_differ_between_the_cameras_are_mended(
     views: tuple[Views, Views], result: StereoResult
 ) -> None:

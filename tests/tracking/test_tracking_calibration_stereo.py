@@ -71,6 +71,7 @@ def test_boards_held_back_come_out_true(result: StereoResult) -> None:
     assert sum(r.role == "held_back" for r in result.residuals) == 2
 
 
+@pytest.mark.long("statistics")
 def test_corner_orders_that_flip_in_eight_of_34_pairs_are_mended() -> None:
     rig = thesis_rig()  # 5x7 corners: the picture alone cannot tell
     left, right = rig.pairs(34, 2, NOISE)
@@ -280,6 +281,7 @@ def moved(rig: Rig, count: int, seed: int) -> tuple[list[BoardView], list[BoardV
     return left, right
 
 
+@pytest.mark.long("statistics")
 def test_pairs_that_do_not_belong_together_are_said_and_their_uncertainty_holds() -> None:
     rig = usual_rig()
     off, factors = [], []

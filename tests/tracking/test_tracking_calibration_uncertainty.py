@@ -123,6 +123,7 @@ def _sightings(rig, band, axis):
     )
 
 
+@pytest.mark.long("statistics")
 def test_a_fix_carries_the_calibrations_error_beside_its_noise(wide):
     axis = np.array([0.2, 0.1, -np.sqrt(1.0 - 0.05)])
     band = FULCRUM + 0.06 * axis

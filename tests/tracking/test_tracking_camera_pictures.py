@@ -160,6 +160,7 @@ def test_noise_is_that_of_counted_photons(wide_pictures: CameraPictures) -> None
         assert seen.std() == pytest.approx(np.hypot(expected, 12**-0.5), rel=0.02)
 
 
+@pytest.mark.long("statistics")
 def test_defocus_and_motion_spread_a_point_as_they_say() -> None:
     kernel = disc(1.5)
     at = np.arange(len(kernel)) - len(kernel) // 2
@@ -182,6 +183,7 @@ def spread(weight: np.ndarray) -> np.ndarray:
     return np.array(squares) / weight.sum()
 
 
+@pytest.mark.long("statistics")
 def test_as_much_of_the_band_is_covered_as_is_asked(wide_pictures: CameraPictures) -> None:
     for seed in range(6):
         rng = np.random.default_rng(seed)

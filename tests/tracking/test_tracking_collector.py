@@ -173,6 +173,7 @@ def test_pictures_without_a_board_say_why() -> None:
         ViewCollector(BOARD, ["a", "b", "c"])
 
 
+@pytest.mark.long("statistics")
 def test_rendered_pictures_are_found_kept_and_refused_when_blurred() -> None:
     collector = ViewCollector(BOARD, ["left"], live=False)
     pose = board_pose(BOARD, 0.35, 15.0, -20.0)

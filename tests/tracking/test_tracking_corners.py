@@ -83,6 +83,7 @@ def test_a_mirrored_charuco_picture_is_named() -> None:
     assert found.reason is RejectionReason.MIRRORED
 
 
+@pytest.mark.long("statistics")
 def test_a_charuco_board_of_other_counts_is_named() -> None:
     rig = replace(usual_rig(), board=CHARUCO)
     image = BoardRenderer(rig.left, CHARUCO, 2).render(facing(CHARUCO, 0.35, (10, 10, 0)))
@@ -117,6 +118,7 @@ def test_a_board_on_edge_is_refused_or_not_seen() -> None:
     )
 
 
+@pytest.mark.long("statistics")
 def test_the_width_of_the_edges_grows_with_blur_and_a_blurred_picture_is_refused() -> None:
     rig = usual_rig()
     T = facing(rig.board, 0.45, (20, -15, 5))
@@ -170,6 +172,7 @@ def test_the_window_follows_from_the_square_and_from_the_width_of_its_edges() ->
     assert half_window(CHARUCO, 40.0, 4.0) == 5  # no more than the white around the markers
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("blur", "noise"), [(1.6, 8.0), (1.65, 2.0)])
 def test_blurred_edges_on_small_squares_get_a_window_that_holds_them(
     blur: float, noise: float

@@ -94,6 +94,7 @@ def test_the_marker_is_found_with_tone_curves_and_colours_that_no_fit_knows(wide
     assert max(errors) <= 0.15e-3
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("kind", "delivery", "seed", "number"),
     [
@@ -110,6 +111,7 @@ def test_a_fix_that_is_some_tenths_off_says_so(wide, kind, delivery, seed, numbe
     assert float(error @ np.linalg.solve(fix.covariance, error)) < LARGEST
 
 
+@pytest.mark.long("statistics")
 def test_the_marker_of_another_renderer_is_found_as_cameras_deliver_it(wide):
     fixes = _fixes(wide, _folder())
     squares = [one[1] for results in fixes.values() for one in results if one is not None]

@@ -175,6 +175,7 @@ def test_the_light_of_a_needle_has_its_colours_and_mixes_as_light(
     assert share[edge, 0] == pytest.approx(share[edge, 1], abs=0.05)
 
 
+@pytest.mark.long("statistics")
 def test_cameras_deliver_eight_bits_whatever_they_draw(wide: RigProfile, scene_at) -> None:
     scene = scene_at(0.06, 10.0, 40.0)
     asked = {"camera_tone": np.array([0.0, 4000.0, 8.0]), "camera_jpeg": np.array([0.0, 90.0])}

@@ -26,6 +26,7 @@ def save(folder, *replaced):
     (folder / NAME).write_text(code, encoding="utf-8")
 
 
+@pytest.mark.long("statistics")
 def test_the_extractor_of_the_page_passes_and_is_remembered(own):
     save(own)
     assert len(extractors(load_rig("wide"), "strongest_spot")) == 2
@@ -67,6 +68,7 @@ LONG = pytest.mark.long("statistics")
 SOON = ("raises", "endless")
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[LONG] * (name not in SOON)) for name in HARMFUL]
 )

@@ -27,6 +27,7 @@ def _skew_covariance():
     return 1e-9 * np.eye(3) + 2.5e-7 * np.outer(direction, direction)
 
 
+@pytest.mark.long("statistics")
 def test_the_fused_depth_and_tip_err_as_they_say_and_less_than_the_foot_of_the_perpendicular():
     rng, axis, depth = np.random.default_rng(1), _axis(0.4, 2.0), 0.07
     covariance = _skew_covariance()

@@ -22,6 +22,7 @@ from app.tracking.optics.lens import LensModel
 from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("lens", "model", "distance"),
     [
@@ -102,6 +103,7 @@ def test_two_fisheye_cameras_are_calibrated_and_tell_how_sure_they_are(tmp_path:
     assert 1e-6 < np.sqrt(np.trace(spread)) < 2e-3
 
 
+@pytest.mark.long("statistics")
 def test_a_board_in_the_middle_of_the_pictures_is_not_called_good() -> None:
     rig = replace(usual_rig(), board=parse_board("checkerboard:9x6:8mm"), distance=0.3)
     rng, pairs = np.random.default_rng(9), ([], [])
@@ -134,6 +136,7 @@ def test_the_deviation_of_rays_grows_where_no_corner_was() -> None:
     assert not ray_sds(p, np.zeros((9, 9)), SIZE).any()
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("seed", [10, 12])
 def test_a_board_that_moves_while_rows_are_read_names_the_rolling_shutter(seed: int) -> None:
     moving = calibrate_mono(lens_views(FIVE, 14, seed, speed=0.15), hold_back=0)

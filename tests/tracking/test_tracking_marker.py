@@ -45,6 +45,7 @@ def _errors(rig, renderers, scene_at, sd_grey=0.0, extractor=None):
     return errors
 
 
+@pytest.mark.long("statistics")
 def test_the_marker_is_found_unbiased_over_the_whole_range(wide, wide_renderers, scene_at):
     errors = _errors(wide, wide_renderers, scene_at)
     millimetres = 0.42 / wide.models[0].intrinsics[0] * 1e3  # per pixel, at the rig's distance

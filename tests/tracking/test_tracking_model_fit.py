@@ -90,6 +90,7 @@ def test_before_the_housing_the_error_is_a_fraction_of_a_tenth_of_a_pixel(
     assert np.sqrt(np.mean(np.square(errors))) < 0.06
 
 
+@pytest.mark.long("statistics")
 def test_the_covariance_of_the_fit_is_that_of_its_errors(wide, wide_renderers, fits, scene_at):
     scene, rng = scene_at(0.05, 15.0, 40.0), np.random.default_rng(8)
     # edges of the housing behind the band are misfit, for which the covariance grows: left out

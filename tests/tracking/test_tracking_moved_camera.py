@@ -83,6 +83,7 @@ def test_a_red_thing_in_one_picture_while_the_other_shows_the_marker_gives_no_fi
     assert said == []
 
 
+@pytest.mark.long("statistics")
 def test_a_bumped_camera_put_back_is_believed_again(wide, wide_renderers, scene_at):
     fixes, _ = _run(
         wide, wide_renderers, scene_at,

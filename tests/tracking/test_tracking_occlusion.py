@@ -55,6 +55,7 @@ def test_a_band_behind_a_finger_or_a_tool_is_measured_within_what_it_states(wide
         assert error @ np.linalg.solve(fix.covariance, error) < GATE, pair.disturbance
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", ["outline_centroid", "ellipse"])
 def test_an_outline_that_shows_less_than_the_band_is_refused(wide, pairs, name):
     assert all(_fix(wide, pair, name).status is not FixStatus.VALID for pair in pairs)
@@ -95,6 +96,7 @@ def _painted_over(image, outline, side, depth_px, colour):
     return image
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     "side", [side for side in OccludedSide if side is not OccludedSide.NOWHERE]
 )
@@ -148,6 +150,7 @@ def test_a_picture_of_one_colour_hides_nothing(wide, level):
     assert miss.reason is MissReason.PARTLY_HIDDEN
 
 
+@pytest.mark.long("statistics")
 def test_a_hidden_band_alone_proves_nothing(wide, pairs):
     solver, seen = FixSolver(wide, FULCRUM), []
     for pair in pairs[:6]:

@@ -24,6 +24,7 @@ def _poses(rig, fulcrum, count, seed):
             yield band, axis, rng
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", ["wide", "thesis"])
 def test_the_outlines_shift_is_that_of_polygons_in_numpy_and_of_opencv(name, fulcrum):
     rig = load_rig(name)

@@ -89,6 +89,7 @@ def test_an_unknown_pen_is_named_with_those_that_there_are():
         load_pen("wand")
 
 
+@pytest.mark.long("statistics")
 def test_corners_are_found_to_a_few_hundredths_of_a_pixel_with_an_honest_covariance(draw):
     detector, wanted = MarkerDetector(PEN.body.dictionary), set(range(50))
     errors, chi = [], []
@@ -125,6 +126,7 @@ def test_the_jacobians_of_the_projection_agree_with_differences():
         np.testing.assert_allclose(by_parameter[:, :, k], slope, rtol=1e-5, atol=1e-6)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("board", "pose", "ids", "build"),
     [
@@ -164,6 +166,7 @@ def test_the_sensitivity_to_the_lens_agrees_with_differences():
         np.testing.assert_allclose(here.sensitivity[:, k], slope, atol=0.01 * np.abs(slope).max())
 
 
+@pytest.mark.long("statistics")
 def test_the_needle_s_ellipsoid_holds_with_print_tip_and_lens_uncertain():
     rng = np.random.default_rng(5)
     lens = np.diag([3.0, 3.0, 2.0, 2.0, 0.01, 0.01, 5e-4, 5e-4, 0.0]) ** 2

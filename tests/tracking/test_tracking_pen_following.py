@@ -41,6 +41,7 @@ def searches(known):
     return told
 
 
+@pytest.mark.long("statistics")
 def test_a_followed_pen_is_found_as_one_that_is_searched_for_in_every_picture(draw):
     known = step(MODEL)
     told = searches(known)

@@ -30,6 +30,7 @@ def rocked(motion, rng, n=50, tip=TIP):
     return poses
 
 
+@pytest.mark.long("statistics")
 def test_the_tip_is_found_and_its_covariance_holds_in_trials():
     rng, distances = np.random.default_rng(2), []
     for _ in range(60):
@@ -85,6 +86,7 @@ def test_the_mount_gives_the_direction_and_says_how_well():
     np.testing.assert_allclose(axis.covariance @ axis.axis, 0.0, atol=1e-12)
 
 
+@pytest.mark.long("statistics")
 def test_rolling_gives_the_direction_and_its_covariance_holds_in_trials():
     rng, axis, distances = np.random.default_rng(6), unit([0.02, -0.01, 1.0]), []
     for _ in range(40):

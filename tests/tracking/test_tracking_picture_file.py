@@ -148,6 +148,7 @@ print(int(status.split("VmHWM:")[1].split()[0]) // 1024)
 """
 
 
+@pytest.mark.long("statistics")
 def test_a_small_file_that_stands_for_gigabytes_is_refused_before_it_is_decoded(
     tmp_path: Path,
 ) -> None:

@@ -12,6 +12,7 @@ from app.tracking.solver import FixSolver
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("rig_name", shipped_rigs())
 @pytest.mark.parametrize("name", list(ExtractorName))
 def test_every_way_can_be_rehearsed_on_every_rig(rig_name: str, name: ExtractorName) -> None:

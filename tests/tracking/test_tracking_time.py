@@ -162,6 +162,7 @@ def test_a_resting_depth_is_not_made_worse_than_it_was_measured(kind):
     assert abs(filter_.at(now).depth - 0.05) < 3 * 5e-5
 
 
+@pytest.mark.long("statistics")
 def test_the_kalman_filters_variance_holds_its_own_error_and_grows_with_the_time_ahead():
     rng, ahead, errors, variances = np.random.default_rng(8), 0.08, [], []
     for _ in range(300):

@@ -147,6 +147,7 @@ def test_the_stated_radius_is_of_the_size_of_the_error(wide, wide_renderers):
     assert np.median(radii) < 0.1e-3
 
 
+@pytest.mark.long("statistics")
 def test_skewed_cameras_are_brought_to_one_time(wide, wide_renderers):
     needle = _Needle(wide.needle.marker_offset, depth=0.01, speed=0.08)
     tracker, cameras = _stepped(wide, wide_renderers, needle, skew=0.015)
@@ -177,6 +178,7 @@ def test_a_needle_out_of_view_is_reported_with_the_camera_that_misses_it(
     assert tracker.process(left, right).status is FixStatus.VALID
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.promise("docs/tracking.md: *inconsistent*, never a fix")
 def test_a_wrong_axis_makes_the_fix_inconsistent(wide, wide_renderers, needle):
     tracker, cameras = _stepped(wide, wide_renderers, needle, axis=lambda t: _axis(0.5, 2.0))

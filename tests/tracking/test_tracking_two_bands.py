@@ -73,6 +73,7 @@ def _spread(rng, size, sigma):
     return sigma**2 * (a @ a.T + np.eye(size)) / size
 
 
+@pytest.mark.long("statistics")
 def test_axis_and_tip_of_two_bands_have_the_covariance_that_monte_carlo_finds():
     rng = np.random.default_rng(1)
     axis = np.array([0.3, -0.2, -0.9]) / np.linalg.norm([0.3, -0.2, -0.9])
@@ -138,6 +139,7 @@ def test_the_first_band_is_followed_and_both_give_the_axis_with_its_error(rig, p
     assert sigma < np.deg2rad(0.3)
 
 
+@pytest.mark.long("statistics")
 def test_without_the_robots_direction_both_bands_give_axis_and_tip(rig, pictures):
     tracker = _tracker(rig, None)
     errors = []

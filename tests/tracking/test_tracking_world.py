@@ -108,6 +108,7 @@ def test_the_jacobian_is_that_of_finite_differences(
         np.testing.assert_allclose(system[1][:, k], slope, rtol=1e-5, atol=1e-3)
 
 
+@pytest.mark.long("statistics")
 def test_the_covariance_says_how_far_the_estimates_scatter(
     rig: RigProfile, calibration: StereoCalibration
 ) -> None:
@@ -123,6 +124,7 @@ def test_the_covariance_says_how_far_the_estimates_scatter(
     assert np.mean(squared) == pytest.approx(6.0, rel=0.25)  # chi-squared with 6 degrees of freedom
 
 
+@pytest.mark.long("statistics")
 def test_what_the_board_was_laid_off_by_is_in_the_covariance(
     rig: RigProfile, calibration: StereoCalibration
 ) -> None:

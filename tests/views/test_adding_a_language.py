@@ -46,6 +46,7 @@ def begun(folder, code, words):
     return source
 
 
+@pytest.mark.long("journey")
 def test_a_language_is_added_as_the_page_says(spoken, tmp_path, monkeypatch):
     monkeypatch.setenv("ACUS_CACHE", str(tmp_path / "cache"))
     words = {
@@ -136,6 +137,7 @@ def test_a_text_that_is_marked_within_another_is_not_missed():
     assert list(translations._within_texts(tree)) == ["All", "x {n}"]
 
 
+@pytest.mark.long("journey")
 def test_a_text_within_an_f_string_is_collected_for_every_language(tmp_path, monkeypatch):
     (tmp_path / "app").mkdir()
     source = "from app.views.kit.text import tr\nLINE = f\"▲ {tr('within a text')}\"\n"

@@ -59,6 +59,7 @@ def longer(application, services, destroy, order):
     window.editor.saved(Path("kept"))
 
 
+@pytest.mark.long("journey")
 def test_the_panel_of_the_page_is_there_for_whom_the_page_says(longer, feature):
     panel = longer.feature(feature).panel
     side = longer.workspace.side
@@ -70,6 +71,7 @@ def test_the_panel_of_the_page_is_there_for_whom_the_page_says(longer, feature):
     assert not panel.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_a_panel_for_everybody_is_shown_by_its_entry_in_a_student_s_window(
     application, services, destroy, order, feature, patient, monkeypatch
 ):
@@ -90,6 +92,7 @@ def entry(window):
     return next(one for one in menu.actions() if one.text() == "Slope of the path")
 
 
+@pytest.mark.long("journey")
 def test_the_panel_of_the_page_stands_beside_the_others_and_follows_the_plan(
     longer, feature, patient, settle
 ):
@@ -108,6 +111,7 @@ def test_the_panel_of_the_page_stands_beside_the_others_and_follows_the_plan(
     assert panel.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_what_the_panel_of_the_page_misses_is_said_until_the_plan_changes(longer, patient):
     longer.show_patient(patient)
     longer.editor.start(None)
@@ -117,6 +121,7 @@ def test_what_the_panel_of_the_page_misses_is_said_until_the_plan_changes(longer
     assert longer.message_bar.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_the_panel_of_the_page_says_nothing_of_a_patient_who_left(longer, feature, patient):
     longer.show_patient(patient)
     plan(longer)

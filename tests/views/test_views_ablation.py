@@ -32,6 +32,7 @@ def done(row=None, field=None, asked=None):
     return state, [*events, Event(2.0, KIND, words, data)]
 
 
+@pytest.mark.long("journey")
 def test_a_zone_is_cut_by_slices_of_every_direction_where_its_surface_is(window, patient, settle):
     window.resize(1366, 768)
     window.show_patient(patient)
@@ -60,6 +61,7 @@ def test_each_class_of_margin_has_a_shape_of_its_own():
     assert len({mark.symbol for mark in marks}) == 3
 
 
+@pytest.mark.long("journey")
 def test_the_map_has_the_least_margin_of_each_field_and_the_patients_sides():
     state, _ = done()
     planned = AblationShown.of_state(state.ablation).planned
@@ -74,6 +76,7 @@ def test_the_map_has_the_least_margin_of_each_field_and_the_patients_sides():
     assert set(np.flatnonzero((fields(front) == 1.0).any(axis=0))) <= {2, 3, 4}
 
 
+@pytest.mark.long("journey")
 def test_the_panel_leads_through_electrodes_and_generator_by_key_and_mouse(application, settle):
     state = begin(liver())
     panel, asked = AblationPanel(), []
@@ -101,6 +104,7 @@ def test_the_panel_leads_through_electrodes_and_generator_by_key_and_mouse(appli
     panel.close()
 
 
+@pytest.mark.long("journey")
 def test_where_control_scans_guide_electrodes_can_be_left_by_the_key(application):
     state = begin(liver())
     panel, asked = AblationPanel(), []
@@ -115,6 +119,7 @@ def test_where_control_scans_guide_electrodes_can_be_left_by_the_key(application
     assert asked == [Step.PLACE_ELECTRODE] * len(state.ablation.plans) + [Step.ABLATE]
 
 
+@pytest.mark.long("journey")
 def test_what_is_told_names_vessels_and_zones_that_were_measured_without_blood():
     state, _ = done()
     said = "\n".join(results(AblationShown.of_state(state.ablation)))
@@ -126,6 +131,7 @@ def test_what_is_told_names_vessels_and_zones_that_were_measured_without_blood()
     assert "Zones ex vivo" in "\n".join(results(AblationShown.of_state(bare.ablation)))
 
 
+@pytest.mark.long("journey")
 def test_the_debrief_sets_planned_against_reached(window, patient, settle):
     window.resize(1366, 768)
     window.show_patient(patient)
@@ -148,6 +154,7 @@ def test_the_debrief_sets_planned_against_reached(window, patient, settle):
     assert box.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_a_map_is_drawn_with_hatching_where_less_than_wanted(application):
     state, _ = done(row=0)
     box = AblationReview()

@@ -61,6 +61,7 @@ def test_a_share_of_what_is_noticed_is_said_in_words(share, words) -> None:
     assert share_words(share) == words
 
 
+@pytest.mark.long("journey")
 def test_every_kept_study_can_be_looked_at(window) -> None:
     page = AccuracyPage(window)
     page.wanted.connect(lambda name: page.show_study(kept(name), False))
@@ -73,6 +74,7 @@ def test_every_kept_study_can_be_looked_at(window) -> None:
         assert "In use: " in page.verdict.text()
 
 
+@pytest.mark.long("journey")
 def test_hard_cases_are_shown_with_their_verdict(window) -> None:
     page = AccuracyPage(window)
     row = ("rotations", "near 180°", "π - 1e-9", "60 digits", 1e-16, 1e-12, "rad", "named", "yes")
@@ -91,6 +93,7 @@ def running(window, patient, settle):
     return feature
 
 
+@pytest.mark.long("journey")
 def test_a_model_is_chosen_in_the_panel_and_shown(running, settle) -> None:
     panel = running.panel
     settle()
@@ -103,6 +106,7 @@ def test_a_model_is_chosen_in_the_panel_and_shown(running, settle) -> None:
     assert rows["lateral_tissue"].effect.model == "winkler"
 
 
+@pytest.mark.long("journey")
 def test_the_wheel_over_a_model_without_the_keyboard_changes_no_model(running, settle) -> None:
     panel = running.panel
     running._shell.show_panel(panel)
@@ -120,6 +124,7 @@ def test_the_wheel_over_a_model_without_the_keyboard_changes_no_model(running, s
         assert box.currentIndex() == before
 
 
+@pytest.mark.long("journey")
 def test_a_model_that_is_kept_goes_back_and_says_why(running, settle, monkeypatch) -> None:
     panel, said = running.panel, []
     settle()
@@ -135,6 +140,7 @@ def test_a_model_that_is_kept_goes_back_and_says_why(running, settle, monkeypatc
     assert said
 
 
+@pytest.mark.long("journey")
 def test_the_shares_of_frame_and_picture_are_shown_beside_the_tick(running, settle) -> None:
     panel = running.panel
     settle()
@@ -154,6 +160,7 @@ def test_the_shares_of_frame_and_picture_are_shown_beside_the_tick(running, sett
     assert panel._frame.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_the_keys_of_the_attempt_work_whichever_panel_is_in_front(running, window, settle) -> None:
     panel, asked = window.workspace.exercise_panel, []
     buttons = panel.buttons

@@ -98,6 +98,7 @@ def choose_answer(monkeypatch, name):
     return asked
 
 
+@pytest.mark.long("journey")
 def test_the_plan_of_an_exercise_is_called_by_its_title_and_a_file_by_its_name(
     window, patient, lesion
 ):
@@ -153,6 +154,7 @@ def test_again_begins_off_the_path_like_the_first_wherever_the_hand_was_left(rea
     assert len({round(one, 2) for one in starts}) == 3, "each time elsewhere"
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_begins_with_the_exercises_own_view_of_the_ct(window, patient, settle):
     window.show_patient(patient)
     plan(window)
@@ -363,6 +365,7 @@ def by_scans(assistance):
     return exercise.model_copy(update={"guidance": part, "assistance": assistance})
 
 
+@pytest.mark.long("journey")
 def test_where_control_scans_guide_the_help_is_the_exercises_own_and_the_dial_says_why(
     window, beginning, settle
 ):
@@ -376,6 +379,7 @@ def test_where_control_scans_guide_the_help_is_the_exercises_own_and_the_dial_sa
     assert dial.slider.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_a_probe_is_without_help_to_its_end(window, beginning, settle):
     base = load_exercise("first-insertion")
     window.conductor.set_exercise(base)

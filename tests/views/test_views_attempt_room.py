@@ -28,6 +28,7 @@ FIGURES = LiveFigures(State.INSERTING, 83.0, 0.0888, True, 0.0, 0.0, 0.0888, 0.4
 SIZES = [(1366, 768), (1920, 1080), (2560, 1440)]
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("large", [False, True])
 def test_in_an_attempt_the_ct_has_its_share_of_the_window(window, patient, settle, size, large):
@@ -57,6 +58,7 @@ def test_the_shares_hold_at_every_scale_of_the_screen():
         assert line["wrong"] == []
 
 
+@pytest.mark.long("journey")
 def test_everything_that_was_put_away_comes_back_as_it_was(window, patient, settle):
     window.resize(1366, 768)
     workspace = window.workspace
@@ -89,6 +91,7 @@ def test_everything_that_was_put_away_comes_back_as_it_was(window, patient, sett
     assert looks() == before
 
 
+@pytest.mark.long("journey")
 def test_the_exercises_own_layout_is_the_one_of_the_attempt(window, patient, settle):
     begun(window, patient, start=False)
     workspace = window.workspace
@@ -100,6 +103,7 @@ def test_the_exercises_own_layout_is_the_one_of_the_attempt(window, patient, set
     workspace.room.end()
 
 
+@pytest.mark.long("journey")
 def test_without_bullseye_and_3d_the_ct_has_all_of_it(window, patient, settle):
     begun(window, patient, start=False)
     workspace = window.workspace
@@ -149,6 +153,7 @@ def test_the_rail_names_a_drill_in_one_line_and_else_has_no_line_for_it(applicat
     assert rail.drill.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_the_menu_ticks_the_layout_that_the_attempt_shows(window, patient):
     begun(window, patient, start=False)
     workspace, layouts = window.workspace, window.view_menu.layouts
@@ -322,6 +327,7 @@ def test_the_breath_strip_knows_its_gate(application):
     assert "push" in strip.words
 
 
+@pytest.mark.long("journey")
 def test_what_a_scan_is_ordered_with_fits_the_rail(window, patient, settle):
     window.resize(1366, 768)
     begun(window, patient, start=False)
@@ -339,6 +345,7 @@ def test_what_a_scan_is_ordered_with_fits_the_rail(window, patient, settle):
     assert workspace.exercise_panel.isAncestorOf(scan)
 
 
+@pytest.mark.long("journey")
 def test_a_pane_that_had_the_whole_room_has_it_again_after_the_attempt(window, patient, settle):
     begun(window, patient, start=False)
     workspace = window.workspace
@@ -350,6 +357,7 @@ def test_a_pane_that_had_the_whole_room_has_it_again_after_the_attempt(window, p
     assert workspace.grid.maximised is pane
 
 
+@pytest.mark.long("journey")
 def test_the_rail_of_an_attempt_begins_at_its_top(window, settle):
     window.show_workspace()
     window.show()

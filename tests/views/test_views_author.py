@@ -61,6 +61,7 @@ def said(dialog):
     return dialog.note.text()
 
 
+@pytest.mark.long("journey")
 def test_a_few_clicks_make_an_exercise_of_what_is_open(opened, author, form, settle):
     assert form.isVisible()
     assert not form.keep.isEnabled()
@@ -79,6 +80,7 @@ def test_a_few_clicks_make_an_exercise_of_what_is_open(opened, author, form, set
     assert opened.start_page.map.places["lung-left"].title.text() == "Lung, left"
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_with_something_of_everything_takes_fewer_than_forty_clicks(
     opened, author, settle
 ):
@@ -149,6 +151,7 @@ def test_without_a_ct_it_says_what_to_do(window, settle):
     assert "open one first" in errors[0]
 
 
+@pytest.mark.long("journey")
 def test_every_mistake_is_said_at_its_field_and_at_its_page(form, author):
     write(form.task.name, "X")
     form.show_page(5)
@@ -165,6 +168,7 @@ def test_every_mistake_is_said_at_its_field_and_at_its_page(form, author):
     assert form.keep.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_typed_letters_are_one_step_and_undo_and_redo_go_through_all(form, author):
     write(form.task.name, "One")
     form.task.level.setValue(4)
@@ -354,6 +358,7 @@ def kept_while_measured(form, author, services, settle, monkeypatch, explain):
     return at_once
 
 
+@pytest.mark.long("journey")
 def test_who_keeps_an_exercise_before_it_is_checked_is_told_so_and_then_what_it_lacks(
     form, author, services, settle, monkeypatch
 ):
@@ -367,6 +372,7 @@ def test_who_keeps_an_exercise_before_it_is_checked_is_told_so_and_then_what_it_
     assert said(form) == f"▲ Kept as “lung-left”, version 1. {lacks}"
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_that_cannot_be_checked_is_kept_with_the_reason(
     form, author, services, settle, monkeypatch
 ):
@@ -380,6 +386,7 @@ def test_an_exercise_that_cannot_be_checked_is_kept_with_the_reason(
     assert settle(lambda: form.effects.cost.text() == words)  # measured once more after Keep
 
 
+@pytest.mark.long("journey")
 def test_who_keeps_an_exercise_that_was_checked_hears_of_no_doubt(form, author, settle):
     author._cost_timer.setInterval(1)
     write(form.task.name, "Lung, left")
@@ -388,6 +395,7 @@ def test_who_keeps_an_exercise_that_was_checked_hears_of_no_doubt(form, author, 
     assert said(form).endswith("Kept as “lung-left”, version 1.")
 
 
+@pytest.mark.long("journey")
 def test_what_the_patient_calls_for_is_listed_and_added_by_one_click(form, author):
     write(form.task.name, "X")
     author.editor.put("effects", value={"lateral_tissue": {}})
@@ -458,6 +466,7 @@ def test_fading_is_chosen_and_its_mistakes_are_said(form, author):
     assert author.editor.exercise.fading.dials == (0.1, 0.0)
 
 
+@pytest.mark.long("journey")
 def test_it_can_be_tried_without_being_kept(opened, form, author, settle):
     write(form.task.name, "Tried")
     form.task.level.setValue(7)
@@ -517,6 +526,7 @@ def test_one_that_is_not_kept_is_asked_about(opened, form, author, monkeypatch):
     assert load_exercise("mine").title == "Mine"
 
 
+@pytest.mark.long("journey")
 def test_with_the_patient_the_form_goes(opened, form, patient):
     opened.show_patient(patient)
     assert opened.feature(AuthorFeature).dialog is None
@@ -685,6 +695,7 @@ def test_what_skills_would_score_is_tried_while_the_page_is_looked_at_and_left_o
     assert "no path" in form.score.tried.text()
 
 
+@pytest.mark.long("journey")
 def test_a_trial_that_is_left_ends_its_process_and_says_nothing(author, form, settle):
     write(form.task.name, "Left")
     said = []
@@ -701,6 +712,7 @@ def test_a_trial_that_is_left_ends_its_process_and_says_nothing(author, form, se
     assert said == []
 
 
+@pytest.mark.long("journey")
 def test_a_plan_that_an_exercise_holds_is_not_asked_for_any_more(opened, form, author):
     plan = author.context.editors.plan
     assert plan.dirty
@@ -711,6 +723,7 @@ def test_a_plan_that_an_exercise_holds_is_not_asked_for_any_more(opened, form, a
     assert plan.dirty
 
 
+@pytest.mark.long("journey")
 def test_the_author_chooses_how_unsteady_the_simulated_hand_is(author, form):
     write(form.task.name, "X")
     form.show_page(3)
@@ -728,6 +741,7 @@ def test_the_author_chooses_how_unsteady_the_simulated_hand_is(author, form):
     assert exercise.hand_level == exercise.level
 
 
+@pytest.mark.long("journey")
 def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, form):
     write(form.task.name, "X")
     author.editor.put("views", value=["bullseye", "three_d", "live_overlay"])
@@ -769,6 +783,7 @@ def test_bone_before_the_target_is_said_with_its_depth_and_layers_end_there(auth
     assert form.review.verdict.text() == "✔ The exercise can be used."
 
 
+@pytest.mark.long("journey")
 def test_layers_from_a_ct_with_bone_on_the_path_come_with_a_warning(author, form):
     write(form.task.name, "X")
     form.effects.layers.from_ct.click()
@@ -781,6 +796,7 @@ def test_layers_from_a_ct_with_bone_on_the_path_come_with_a_warning(author, form
     assert f"Bone is in the way at {before:.0f} mm" in said(form)
 
 
+@pytest.mark.long("journey")
 def test_the_keys_of_undo_are_the_forms_wherever_the_cursor_is(author, form):
     write(form.task.name, "Title")
     form.task.briefing.setFocus()
@@ -804,6 +820,7 @@ def test_the_keys_of_undo_are_the_forms_wherever_the_cursor_is(author, form):
     assert form.task.briefing.toPlainText() == ""
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("where", "value", "words"),
     [

@@ -51,6 +51,7 @@ def test_enter_pressed_twice_begins_one_attempt(window, beginning, settle, servi
     assert len(services.opened) == 1
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("key", "wanted"),
     [
@@ -85,6 +86,7 @@ def test_the_keys_of_the_briefing_work_wherever_the_focus_is_but_in_a_text(
     assert heard == [wanted] * 2
 
 
+@pytest.mark.long("journey")
 def test_behind_an_open_dialog_the_briefing_has_no_keys(window, beginning):
     choose(window, "first-insertion")
     page, heard = beginning.page, []
@@ -106,6 +108,7 @@ def test_behind_an_open_dialog_the_briefing_has_no_keys(window, beginning):
     dialog.deleteLater()
 
 
+@pytest.mark.long("journey")
 def test_the_briefing_takes_its_own_keys_alone_and_none_of_another_window(window, beginning):
     choose(window, "first-insertion")
     page, heard = beginning.page, []
@@ -184,6 +187,7 @@ def test_do_not_show_again_holds_for_that_exercise_and_never_for_an_assessment(
     assert not beginning._is_known(beginning.exercise)
 
 
+@pytest.mark.long("journey")
 def test_the_reason_over_the_buttons_of_the_briefing_is_shown_whole(window, beginning, settle):
     choose(window, "plan-it-yourself")
     window.resize(1366, 768)

@@ -68,6 +68,7 @@ def ends(bullseye):
         yield np.array([at.x(), -at.y()])
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("lies", list(PatientOrientation))
 @pytest.mark.parametrize("hub", [False, True])
 def test_the_mouse_in_the_window_takes_the_chosen_end_where_it_goes_however_the_patient_lies(
@@ -116,6 +117,7 @@ def test_the_bullseye_is_the_largest_instrument_of_the_exercise_on_a_small_scree
     assert widest[(1920, 1080), "2x2"] >= 450.0
 
 
+@pytest.mark.long("journey")
 def test_the_legend_is_hidden_and_shown_and_the_choice_outlives_the_window(at_work, settle):
     window = at_work()
     window.resize(1366, 768)

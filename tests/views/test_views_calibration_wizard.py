@@ -205,6 +205,7 @@ def test_pictures_without_a_board_are_named(wizard, job, tmp_path: Path, settle)
     assert job.pairs == 0
 
 
+@pytest.mark.long("journey")
 def test_too_few_pairs_fail_with_a_reason_and_nothing_to_save(
     wizard, job, pictures, tmp_path: Path, settle
 ) -> None:
@@ -219,6 +220,7 @@ def test_too_few_pairs_fail_with_a_reason_and_nothing_to_save(
     assert "nothing new" in wizard.save_page.state.text()
 
 
+@pytest.mark.long("journey")
 def test_another_board_forgets_the_pictures(wizard, job, pictures, settle) -> None:
     wizard.capture_page.begin_folder(pictures)
     assert settle(lambda: not wizard.capture_page.running)
@@ -269,6 +271,7 @@ def cameras(pictures) -> list[FakeCamera]:
     return [FakeCamera(sorted(pictures.glob(f"{n}*.png"))[:3]) for n in ("left", "right")]
 
 
+@pytest.mark.long("journey")
 def test_live_cameras_are_searched_and_let_go(application, job, cameras, destroy, settle) -> None:
     dialog = CalibrationWizard(job, lambda progress: cameras)
     destroy(dialog)

@@ -26,6 +26,7 @@ def running(window, patient, services, settle):
     return window
 
 
+@pytest.mark.long("journey")
 def test_without_a_choice_the_cameras_are_simulated_and_real_ones_are_asked_for(window, settle):
     menu = window.feature(CamerasFeature).menu
     assert menu.simulated.isChecked()
@@ -36,6 +37,7 @@ def test_without_a_choice_the_cameras_are_simulated_and_real_ones_are_asked_for(
     window.equipment.dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_choosing_real_cameras_begins_a_run_on_them_and_is_remembered(running, services):
     assert services.opened[-1].setup.cameras == REAL
     assert running.feature(CamerasFeature).menu.real.isChecked()
@@ -43,12 +45,14 @@ def test_choosing_real_cameras_begins_a_run_on_them_and_is_remembered(running, s
     assert str(running.settings.value("cameras/real")).lower() == "true"
 
 
+@pytest.mark.long("journey")
 def test_simulated_cameras_can_be_taken_for_this_start_only(running, services, settle):
     running.equipment.take_cameras(CameraSettings())
     assert settle(lambda: services.opened[-1].setup.cameras is None)
     assert str(running.settings.value("cameras/real")).lower() == "true"
 
 
+@pytest.mark.long("journey")
 def test_the_cameras_stay_while_an_attempt_runs(running):
     running.runs.run.trainer.state = State.INSERTING
     running.feature(CamerasFeature).use_real(False)
@@ -58,6 +62,7 @@ def test_the_cameras_stay_while_an_attempt_runs(running):
     assert running.equipment.uses_real_cameras
 
 
+@pytest.mark.long("journey")
 def test_what_was_refused_in_an_attempt_goes_when_the_attempt_is_over(running):
     running.runs.run.trainer.state = State.INSERTING
     running.feature(CamerasFeature).use_real(False)
@@ -67,6 +72,7 @@ def test_what_was_refused_in_an_attempt_goes_when_the_attempt_is_over(running):
     assert running.message_bar.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_what_kept_the_cameras_away_goes_with_the_choice_of_others(window, services, settle):
     services.refuses = "no camera at usb:1-1; none is plugged in"
     save_settings(REAL)
@@ -77,6 +83,7 @@ def test_what_kept_the_cameras_away_goes_with_the_choice_of_others(window, servi
     assert window.message_bar.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_asking_for_real_cameras_where_none_are_chosen_is_over_once_they_are(window, services):
     window.feature(CamerasFeature).aim()
     assert "Only simulated cameras are chosen" in window.message_bar.text
@@ -116,6 +123,7 @@ def test_a_cone_that_nobody_measured_is_not_told_as_seen(running, services, sett
     dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_a_camera_that_stops_is_said_below_its_darkened_picture(running, services, settle):
     running.feature(CamerasFeature).aim()
     preview = running.equipment.dialog.previews[1]
@@ -163,6 +171,7 @@ def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, se
     assert settle(lambda: all(live.closed.is_set() for live in services.lives))
 
 
+@pytest.mark.long("journey")
 def test_what_was_measured_goes_with_its_camera(window):
     save_settings(REAL.model_copy(update={"left": OneCamera(source="usb:1-1", latency_ms=40.0)}))
     window.feature(CamerasFeature).set_up()
@@ -190,6 +199,7 @@ def test_the_latency_is_measured_by_the_blinking_patch_and_kept(running, service
     assert settle(lambda: running.runs.run is not None)
 
 
+@pytest.mark.long("journey")
 def test_a_settings_file_that_cannot_be_read_is_told_not_replaced(window, services, tmp_path):
     path = save_settings(REAL)
     path.write_text("left: nonsense\n")
@@ -201,6 +211,7 @@ def test_a_settings_file_that_cannot_be_read_is_told_not_replaced(window, servic
     QApplication.processEvents()
 
 
+@pytest.mark.long("journey")
 def test_calibrating_lets_the_run_go_searches_both_pictures_and_gives_the_cameras_back(
     running, services, settle
 ):
@@ -219,6 +230,7 @@ def test_calibrating_lets_the_run_go_searches_both_pictures_and_gives_the_camera
     assert all(live.closed.wait(30.0) for live in services.lives)
 
 
+@pytest.mark.long("journey")
 def test_without_real_cameras_a_calibration_is_made_from_folders(window):
     window.feature(CamerasFeature).menu.calibrate.trigger()
     dialog = window.equipment.dialog
@@ -227,6 +239,7 @@ def test_without_real_cameras_a_calibration_is_made_from_folders(window):
     dialog.reject()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("which", ["aim", "latency"])
 def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
     running, services, settle, monkeypatch, which
@@ -250,6 +263,7 @@ def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
     assert settle(lambda: running.runs.run is not None)
 
 
+@pytest.mark.long("journey")
 def test_the_board_chosen_last_is_remembered_between_starts(window):
     window.feature(CamerasFeature).menu.calibrate.trigger()
     window.equipment.dialog.board_page.square.setValue(31.5)

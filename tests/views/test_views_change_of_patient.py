@@ -227,6 +227,7 @@ def test_a_patient_without_a_plan_leaves_no_robot_of_the_last_one(
     assert not window.workspace.exercise_panel.buttons.start.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_a_maximised_scan_does_not_make_the_next_ct_black(window, patients, settle):
     old, new = patients
     window.show_patient(old)
@@ -280,6 +281,7 @@ def with_attempt(window, patient, settle):
     assert settle(lambda: window.workspace.viewing.needle is not None)
 
 
+@pytest.mark.long("journey")
 def test_what_would_be_replaced_is_named_and_cancelling_changes_nothing(
     window, patients, settle, answers, slow
 ):
@@ -299,6 +301,7 @@ def test_what_would_be_replaced_is_named_and_cancelling_changes_nothing(
     assert window.workspace.exercise_panel.exercise.currentData() == "first-insertion"
 
 
+@pytest.mark.long("journey")
 def test_a_student_is_asked_about_nothing_that_he_did_not_make(
     window, patients, settle, answers, slow
 ):
@@ -313,6 +316,7 @@ def test_a_student_is_asked_about_nothing_that_he_did_not_make(
     assert asked == []
 
 
+@pytest.mark.long("journey")
 def test_a_student_is_asked_about_his_plan_that_no_attempt_has_and_enter_keeps_it(
     window, patients, settle, monkeypatch, slow
 ):
@@ -337,6 +341,7 @@ def test_a_student_is_asked_about_his_plan_that_no_attempt_has_and_enter_keeps_i
     assert window.editor.edit == before
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("role", [Role.INSTRUCTOR, Role.TECHNICIAN])
 def test_enter_on_a_question_about_a_plan_writes_no_file(window, patients, monkeypatch, role):
     defaults, saved = [], []
@@ -409,6 +414,7 @@ def test_then_the_attempt_is_saved_and_the_new_patient_has_its_exercise(
     assert window.pages.currentWidget() is window.workspace
 
 
+@pytest.mark.long("journey")
 def test_start_waits_while_a_patient_is_loaded_and_says_why(
     window, patients, settle, answers, slow
 ):
@@ -435,6 +441,7 @@ def test_start_waits_while_a_patient_is_loaded_and_says_why(
     assert not panel._note.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_another_exercise_of_the_same_patient_waits_for_the_attempt_to_end(
     window, patients, settle
 ):
@@ -445,6 +452,7 @@ def test_another_exercise_of_the_same_patient_waits_for_the_attempt_to_end(
     assert "An attempt is running" in window.message_bar.text
 
 
+@pytest.mark.long("journey")
 def test_an_assessment_is_not_begun_on_another_patient_than_its_own(
     window, patient, settle
 ) -> None:

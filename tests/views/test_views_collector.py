@@ -91,6 +91,7 @@ def test_full_collections_are_rare(collector, generations):
     assert generations.count(2) == 3
 
 
+@pytest.mark.long("journey")
 def test_what_was_settled_is_not_walked_again(collector):
     built = [[] for _ in range(1000)]
     before = gc.get_freeze_count()
@@ -134,6 +135,7 @@ class Ct:
     """Stands for a patient's hundreds of megabytes."""
 
 
+@pytest.mark.long("journey")
 def test_a_circle_that_was_left_out_of_the_walk_goes_with_the_patient_it_holds(collector, busy):
     class Circle:
         pass

@@ -118,6 +118,7 @@ def test_no_widget_tells_where_the_needle_is(guided, settle) -> None:
     assert window.feature(StructuresFeature).panel.live.text() == ""
 
 
+@pytest.mark.long("journey")
 def test_structures_are_said_nothing_of_while_scans_guide(guided, settle) -> None:
     window, trainer = guided
     add_structure(window, trainer.placed.plan)
@@ -145,6 +146,7 @@ def add_structure(window, path) -> None:
         book.set_field(one, SignedDistance.of(one))
 
 
+@pytest.mark.long("journey")
 def test_the_same_walk_notices_a_needle_that_is_shown(guided, settle) -> None:
     window, trainer = guided
     window.conductor._attach(replace(window.conductor.controller.run, shown=Shown(), inspect=None))
@@ -174,6 +176,7 @@ def test_a_snapshot_without_the_needle_says_how_the_robot_is_and_nothing_of_the_
     assert without_needle(replace(snapshot, state=State.READY)).state is State.READY
 
 
+@pytest.mark.long("journey")
 def test_states_that_are_read_from_the_needle_are_not_listed(guided) -> None:
     window, trainer = guided
     controller, messages = window.conductor.controller, window.workspace.messages
@@ -188,6 +191,7 @@ def test_states_that_are_read_from_the_needle_are_not_listed(guided) -> None:
     assert "depth" not in lines
 
 
+@pytest.mark.long("journey")
 def test_the_pedal_takes_the_slices_that_are_set(guided, settle) -> None:
     window, trainer = guided
     panel = window.workspace.exercise_panel
@@ -206,6 +210,7 @@ def test_the_pedal_takes_the_slices_that_are_set(guided, settle) -> None:
     assert panel.scan.order.centre_mm == pytest.approx(120.0)
 
 
+@pytest.mark.long("journey")
 def test_the_range_of_the_next_scan_stands_on_the_planning_ct(guided, settle) -> None:
     window, _ = guided
     panel = window.workspace.exercise_panel.scan
@@ -225,6 +230,7 @@ def test_the_range_of_the_next_scan_stands_on_the_planning_ct(guided, settle) ->
     assert sagittal.lines == ()
 
 
+@pytest.mark.long("journey")
 def test_the_slices_of_the_last_scan_are_shown_and_counted(guided, settle) -> None:
     window, trainer = guided
     view, panel = window.workspace.scan_view, window.workspace.exercise_panel.scan
@@ -244,6 +250,7 @@ def test_the_slices_of_the_last_scan_are_shown_and_counted(guided, settle) -> No
     assert view.scan is None
 
 
+@pytest.mark.long("journey")
 def test_the_scan_pane_draws_nothing_live(guided, settle) -> None:
     window, trainer = guided
     view = window.workspace.scan_view
@@ -254,6 +261,7 @@ def test_the_scan_pane_draws_nothing_live(guided, settle) -> None:
     assert not view.viewing.draft.complete
 
 
+@pytest.mark.long("journey")
 def test_the_scan_follows_window_and_crosshair_of_the_planning_ct(guided, settle) -> None:
     window, trainer = guided
     view, planning = window.workspace.scan_view, window.workspace.viewing
@@ -266,6 +274,7 @@ def test_the_scan_follows_window_and_crosshair_of_the_planning_ct(guided, settle
     np.testing.assert_allclose(view.viewing.cursor_mm, (3.0, 4.0, slice_before), atol=1e-6)
 
 
+@pytest.mark.long("journey")
 def test_the_hand_still_moves_where_nothing_is_drawn(guided) -> None:
     window, trainer = guided
     bullseye = window.workspace.bullseye
@@ -281,6 +290,7 @@ def test_the_hand_still_moves_where_nothing_is_drawn(guided) -> None:
     assert not bullseye.depth_bar.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_a_live_exercise_shows_neither_panel_nor_scan(window, patient, settle) -> None:
     window.conductor.set_exercise(next(iter(window.feature(ExerciseFeature).exercises.values())))
     window.show_patient(patient)
@@ -292,6 +302,7 @@ def test_a_live_exercise_shows_neither_panel_nor_scan(window, patient, settle) -
     assert window.workspace.bullseye.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_a_scan_of_a_live_attempt_is_about_the_tip_and_fills_the_main_view(guided, settle) -> None:
     window, trainer = guided
     workspace, placed = window.workspace, trainer.placed
@@ -317,6 +328,7 @@ def test_a_scan_of_a_live_attempt_is_about_the_tip_and_fills_the_main_view(guide
     assert not workspace.scan_view.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_an_assessment_guides_by_scans_unless_it_says_otherwise(window) -> None:
     exercise = next(iter(window.feature(ExerciseFeature).exercises.values()))
     assert exercise.guidance_mode is GuidanceMode.LIVE
@@ -336,6 +348,7 @@ def reviewed(**changes):
     return review(control_scans=scans, origin=1.0, **changes)
 
 
+@pytest.mark.long("journey")
 def test_the_debrief_lists_every_scan_with_what_it_showed(window) -> None:
     page = window.feature(DebriefFeature).page
     page.show_review(reviewed())
@@ -352,6 +365,7 @@ def test_the_debrief_lists_every_scan_with_what_it_showed(window) -> None:
     assert page.scans.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_the_debrief_shows_a_scan_again_beside_the_truth(guided, settle) -> None:
     window, _ = guided
     window.feature(DebriefFeature).page.show_review(reviewed())
@@ -363,6 +377,7 @@ def test_the_debrief_shows_a_scan_again_beside_the_truth(guided, settle) -> None
     window.feature(DebriefFeature).scan_pictures.dialog.close()
 
 
+@pytest.mark.long("journey")
 def test_the_debrief_reads_the_ct_again_as_it_was_in_the_attempt(
     guided, settle, monkeypatch
 ) -> None:
@@ -385,6 +400,7 @@ def test_the_debrief_reads_the_ct_again_as_it_was_in_the_attempt(
     assert asked == [(volume.series, Recipe("halve", (2, 2, 1)))]
 
 
+@pytest.mark.long("journey")
 def test_a_scan_of_another_ct_is_not_made_of_this_one(guided, settle) -> None:
     window, _ = guided
     window.feature(DebriefFeature).page.show_review(reviewed(ct=CtFacts("CT-OTHER")))
@@ -408,6 +424,7 @@ def state_events():
     return [Event(time, "state", state, {"state": state}) for time, state in states]
 
 
+@pytest.mark.long("journey")
 def test_a_scan_is_told_by_the_clock_on_the_rail(guided, settle) -> None:
     window, trainer = guided
     trainer.begin()
@@ -433,6 +450,7 @@ def test_messages_are_told_by_the_clock_on_the_rail(application) -> None:
     assert "1:28" in lines[-1]
 
 
+@pytest.mark.long("journey")
 def test_the_debrief_tells_every_time_by_the_clock_of_the_attempt(window) -> None:
     from views_exercise_attempts import review
 

@@ -33,6 +33,7 @@ def own(window, monkeypatch):
     return shown
 
 
+@pytest.mark.long("journey")
 def test_the_proposed_entry_is_taken_and_said(window, own, patient, settle) -> None:
     from dataclasses import replace
 
@@ -51,6 +52,7 @@ def test_the_proposed_entry_is_taken_and_said(window, own, patient, settle) -> N
     assert window.editor.edit.draft.entry_mm is None
 
 
+@pytest.mark.long("journey")
 def test_without_a_proposed_entry_it_says_what_to_do(window, own, patient) -> None:
     show, failed = own(patient, (5.0, 5.0, 140.0)), []
     assert patient.proposed is None
@@ -62,6 +64,7 @@ def test_without_a_proposed_entry_it_says_what_to_do(window, own, patient) -> No
     assert "acus run" in failed[0]
 
 
+@pytest.mark.long("journey")
 def test_where_scans_guide_one_is_taken_at_the_target(window, patient, settle) -> None:
     window.show_patient(patient)
     plan(window)
@@ -96,6 +99,7 @@ def test_before_the_first_fix_pictures_on_the_way_wait(age, fresh) -> None:
     assert not has_fresh_fix(SimpleNamespace(tracker=None))
 
 
+@pytest.mark.long("journey")
 def test_its_patience_is_measured_in_this_computers_work_not_in_time_lost_to_others(
     window, own, patient, monkeypatch
 ):
@@ -112,6 +116,7 @@ def test_its_patience_is_measured_in_this_computers_work_not_in_time_lost_to_oth
     assert "nothing has happened" in failed[0]
 
 
+@pytest.mark.long("journey")
 def test_a_slow_attempt_that_goes_on_is_waited_for_and_one_without_end_is_not(
     window, patient, monkeypatch
 ) -> None:

@@ -42,6 +42,7 @@ def shown(window, patient, settle):
     return show
 
 
+@pytest.mark.long("journey")
 def test_the_button_begins_exactly_that_drill_on_the_plan_of_the_attempt(window, shown, settle):
     page = shown()
     assert drill_title(DrillKind.ALIGN) in page.card.drill.text()
@@ -59,6 +60,7 @@ def test_the_button_begins_exactly_that_drill_on_the_plan_of_the_attempt(window,
     assert window.workspace.rail.drill.whole == ""
 
 
+@pytest.mark.long("journey")
 def test_again_after_a_drill_is_the_drill_and_next_is_the_whole_exercise(window, shown, settle):
     part = DrillPart(kind="depth", of=WHOLE.id, version=WHOLE.version)
     under = replace(UNDER, exercise="drill-depth-first-insertion", version=1, drill="depth")
@@ -71,6 +73,7 @@ def test_again_after_a_drill_is_the_drill_and_next_is_the_whole_exercise(window,
     assert window.conductor.exercise.drill.kind is DrillKind.DEPTH
 
 
+@pytest.mark.long("journey")
 def test_no_drill_of_another_version_or_of_what_may_not_be_begun(shown, monkeypatch):
     assert shown(conditions=replace(UNDER, version=WHOLE.version + 1)).card.kind is None
     assert shown(conditions=replace(UNDER, exercise="gone")).card.kind is None
@@ -78,6 +81,7 @@ def test_no_drill_of_another_version_or_of_what_may_not_be_begun(shown, monkeypa
     assert shown().card.kind is None
 
 
+@pytest.mark.long("journey")
 def test_the_depth_begins_aligned_with_a_pointer_and_not_with_robot_or_pen(shown, settle):
     simulated = replace(UNDER, kind=DeviceKind.SIMULATED)
     page = shown(conditions=simulated, practise=DrillKind.DEPTH)
@@ -89,6 +93,7 @@ def test_the_depth_begins_aligned_with_a_pointer_and_not_with_robot_or_pen(shown
         assert "aligned" not in page.card.practise.text()
 
 
+@pytest.mark.long("journey")
 def test_nobody_drills_what_a_course_of_his_holds_as_an_assessment(window, shown, settle):
     ada, _ = People().add(RosterLine("Ada"))
     item = CourseItem(exercise=WHOLE.id, version=WHOLE.version, purpose=Purpose.ASSESSMENT)
@@ -106,6 +111,7 @@ def test_nobody_drills_what_a_course_of_his_holds_as_an_assessment(window, shown
     assert "course Autumn: nobody rehearses it" in window.message_bar.text
 
 
+@pytest.mark.long("journey")
 def test_the_expert_stands_beside_an_attempt_until_somebody_chooses_otherwise(shown, settle):
     page = shown()
     assert page.bar.ghost.currentData() == EXPERT
@@ -121,6 +127,7 @@ def test_the_expert_stands_beside_an_attempt_until_somebody_chooses_otherwise(sh
     assert page.bar.ghost.currentData() is None
 
 
+@pytest.mark.long("journey")
 def test_where_the_drill_stands_out_nothing_else_does(shown):
     page = shown(score=None)
     page.show_proposal(Proposal(WHOLE.id, WHOLE.title, ProposalReason.AGAIN))

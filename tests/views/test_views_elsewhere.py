@@ -41,6 +41,7 @@ def told(window):
     return "" if window.message_bar.isHidden() else window.message_bar.text
 
 
+@pytest.mark.long("journey")
 def test_attempts_in_the_tree_are_told_and_come_when_asked_for_once(
     tree, window, settle, monkeypatch
 ):
@@ -71,6 +72,7 @@ def test_attempts_in_the_tree_are_told_and_come_when_asked_for_once(
     assert settle(lambda: sessions.model.rowCount() == 2)
 
 
+@pytest.mark.long("journey")
 def test_what_cannot_come_is_said_and_can_be_asked_for_again(tree, window, settle, monkeypatch):
     gathering = window.feature(DebriefFeature).gathering
     assert settle(lambda: gathering.entry.isVisible())

@@ -25,6 +25,7 @@ def gridded(window, patient, settle):
     return window
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_without_a_grid_asks_for_no_mark(window, patient, settle) -> None:
     window.conductor.set_exercise(next(iter(window.feature(ExerciseFeature).exercises.values())))
     window.show_patient(patient)
@@ -35,6 +36,7 @@ def test_an_exercise_without_a_grid_asks_for_no_mark(window, patient, settle) ->
     assert all(layer.dots == () for layer in window.conductor.marking.layers)
 
 
+@pytest.mark.long("journey")
 def test_what_is_marked_becomes_the_entry_and_is_compared_with_the_planned_one(gridded) -> None:
     window = gridded
     panel, marking = window.workspace.exercise_panel.entry, window.conductor.marking
@@ -61,6 +63,7 @@ def test_what_is_marked_becomes_the_entry_and_is_compared_with_the_planned_one(g
     np.testing.assert_allclose(again, planned)  # the mark is no new plan
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_is_told_of_the_mark(gridded, settle) -> None:
     window = gridded
     panel = window.workspace.exercise_panel.entry
@@ -71,6 +74,7 @@ def test_an_attempt_is_told_of_the_mark(gridded, settle) -> None:
     assert mark is window.conductor.marking.mark is not None
 
 
+@pytest.mark.long("journey")
 def test_a_plan_that_is_changed_afterwards_takes_the_mark_away(gridded, settle) -> None:
     window, marking = gridded, gridded.conductor.marking
     window.workspace.exercise_panel.entry.mark.click()
@@ -81,6 +85,7 @@ def test_a_plan_that_is_changed_afterwards_takes_the_mark_away(gridded, settle) 
     assert marking.mark is None
 
 
+@pytest.mark.long("journey")
 def test_the_dots_lie_on_the_axial_slice_and_the_laser_on_the_others(gridded, settle) -> None:
     window, marking = gridded, gridded.conductor.marking
     axial, sagittal, _ = marking.layers
@@ -96,6 +101,7 @@ def test_the_dots_lie_on_the_axial_slice_and_the_laser_on_the_others(gridded, se
     assert before - sagittal._item.laser[0].y() == pytest.approx(5.0)
 
 
+@pytest.mark.long("journey")
 def test_a_place_beyond_the_grid_is_refused_in_words(gridded) -> None:
     window, failures = gridded, []
     window.conductor.failed.connect(failures.append)
@@ -107,6 +113,7 @@ def test_a_place_beyond_the_grid_is_refused_in_words(gridded) -> None:
         window.conductor.marking._grid.point(GridPlace(0.0, 6))
 
 
+@pytest.mark.long("journey")
 def test_the_needle_points_as_it_is_dialled(gridded, settle) -> None:
     window = gridded
     assert settle(lambda: window.conductor.controller.run is not None)

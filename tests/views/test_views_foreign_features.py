@@ -83,6 +83,7 @@ def window_with(application, services, destroy):
     plugin_folders.refused.pop(HERE, None)
 
 
+@pytest.mark.long("journey")
 def test_one_that_cannot_be_made_is_left_out_and_named(window_with):
     window = window_with(CannotBeMade)
     assert len(window.features) == len(FEATURES)
@@ -91,6 +92,7 @@ def test_one_that_cannot_be_made_is_left_out_and_named(window_with):
     assert window.close()
 
 
+@pytest.mark.long("journey")
 def test_one_that_raises_wherever_it_is_asked_keeps_no_window_open(window_with, tmp_path):
     window = window_with(Refuses)
     feature = window.features[-1]

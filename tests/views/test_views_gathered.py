@@ -125,6 +125,7 @@ def alike(one, other):
         assert a == b
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("seed", range(8))
 def test_gathered_changes_show_what_the_same_changes_one_by_one_show(room, settle, seed):
     gathered, single = room(), room()

@@ -78,6 +78,7 @@ def fill(dialog, *texts):
     return dialog.save()
 
 
+@pytest.mark.long("journey")
 def test_the_button_exists_only_where_a_provider_is_configured(window, settle):
     feature = window.feature(PeopleFeature)
     feature.sign_in_student()
@@ -98,6 +99,7 @@ def test_the_button_exists_only_where_a_provider_is_configured(window, settle):
     feature.close()
 
 
+@pytest.mark.long("journey")
 def test_somebody_new_chooses_pseudonym_and_pin_once_and_comes_in_by_the_hospital_from_then_on(
     feature, settle, issuer
 ):
@@ -122,6 +124,7 @@ def test_somebody_new_chooses_pseudonym_and_pin_once_and_comes_in_by_the_hospita
     assert ACCESS.student.pseudonym == "Ada"
 
 
+@pytest.mark.long("journey")
 def test_who_leaves_the_choice_of_a_pseudonym_is_not_signed_in(feature, settle, issuer):
     following = answered(feature, settle, issuer, begin(feature, settle))
     following.reject()
@@ -130,6 +133,7 @@ def test_who_leaves_the_choice_of_a_pseudonym_is_not_signed_in(feature, settle, 
     assert linked_keys(People()) == ()
 
 
+@pytest.mark.long("journey")
 def test_an_instructor_by_groups_needs_the_password_once_and_is_no_technician(
     window, feature, settle, issuer
 ):
@@ -158,6 +162,7 @@ def test_an_instructor_by_groups_needs_the_password_once_and_is_no_technician(
     assert entries()[-1].who == "instructor"
 
 
+@pytest.mark.long("journey")
 def test_who_has_no_password_goes_on_as_a_student(feature, settle, issuer):
     issuer.claims = {"groups": ["technicians"]}
     following = answered(feature, settle, issuer, begin(feature, settle))
@@ -167,6 +172,7 @@ def test_who_has_no_password_goes_on_as_a_student(feature, settle, issuer):
     assert not ACCESS.instructor
 
 
+@pytest.mark.long("journey")
 def test_a_technician_by_groups_is_one_and_no_more_once_the_group_is_gone(
     window, feature, settle, issuer
 ):
@@ -183,6 +189,7 @@ def test_a_technician_by_groups_is_one_and_no_more_once_the_group_is_gone(
     assert ACCESS.role is Role.STUDENT
 
 
+@pytest.mark.long("journey")
 def test_a_sign_in_that_is_cancelled_leaves_nothing_that_listens(feature, settle, issuer):
     dialog = begin(feature, settle)
     question = feature.hospital._question
@@ -197,6 +204,7 @@ def test_a_sign_in_that_is_cancelled_leaves_nothing_that_listens(feature, settle
     assert issuer.redeemed == []
 
 
+@pytest.mark.long("journey")
 def test_a_sign_in_that_is_cancelled_before_the_provider_answers_leaves_nothing_that_listens(
     feature, settle, issuer
 ):
@@ -220,6 +228,7 @@ def named(name):
     return [one for one in threading.enumerate() if one.name == name]
 
 
+@pytest.mark.long("journey")
 def test_a_button_that_is_pressed_twice_asks_once(feature, settle, issuer):
     feature.sign_in_student()
     shown = hospital_button(feature.dialog)[0]
@@ -239,6 +248,7 @@ def test_a_button_that_is_pressed_twice_asks_once(feature, settle, issuer):
     dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_where_no_browser_opens_the_address_can_be_copied(feature, settle):
     feature.hospital._browse = lambda address: bool(feature.opened.append(address))
     dialog = begin(feature, settle)
@@ -247,6 +257,7 @@ def test_where_no_browser_opens_the_address_can_be_copied(feature, settle):
     dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_a_browser_that_never_answers_ends_with_what_to_do_and_can_be_tried_again(
     feature, settle, issuer
 ):
@@ -264,6 +275,7 @@ def test_a_browser_that_never_answers_ends_with_what_to_do_and_can_be_tried_agai
     feature.dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_a_provider_that_is_away_or_lies_signs_nobody_in(feature, settle, issuer):
     issuer.faults["/.well-known/openid-configuration"] = b"HTTP/1.1 500 no\r\n\r\n"
     dialog = begin(feature, settle)
@@ -279,6 +291,7 @@ def test_a_provider_that_is_away_or_lies_signs_nobody_in(feature, settle, issuer
     assert not ACCESS.instructor
 
 
+@pytest.mark.long("journey")
 def test_a_window_that_goes_while_the_browser_asks_waits_for_nobody(feature, settle, issuer):
     begin(feature, settle)
     feature.close()
@@ -287,6 +300,7 @@ def test_a_window_that_goes_while_the_browser_asks_waits_for_nobody(feature, set
     assert ACCESS.student is None
 
 
+@pytest.mark.long("journey")
 def test_a_window_that_goes_while_a_role_is_asked_for_lets_nobody_in(feature, settle, issuer):
     issuer.claims = {"groups": ["teachers"]}
     assert fill(answered(feature, settle, issuer, begin(feature, settle)), "Tea", "2718", "2718")

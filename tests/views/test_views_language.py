@@ -58,6 +58,7 @@ def entries(menu):
     return [(action.text(), action.isChecked()) for action in menu.actions()]
 
 
+@pytest.mark.long("journey")
 def test_the_menu_lists_each_language_by_its_own_name(window, german):
     menu, changes = QMenu(window), []
     fill_language_menu(menu, window.settings, changes.append)
@@ -70,6 +71,7 @@ def test_the_menu_lists_each_language_by_its_own_name(window, german):
     assert [on for _, on in entries(menu)] == [False, False, True]
 
 
+@pytest.mark.long("journey")
 def test_another_language_keeps_patient_plan_and_exercise(patient, rebuilding, settle):
     window = rebuilding.window
     window.show_patient(patient)
@@ -92,6 +94,7 @@ def test_another_language_keeps_patient_plan_and_exercise(patient, rebuilding, s
     assert rebuilding.window.editor.edit.draft == drawn
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("attempted", [True, False])
 def test_another_language_knows_what_was_briefed_and_whether_the_plan_was_attempted(
     patient, rebuilding, attempted
@@ -109,6 +112,7 @@ def test_another_language_knows_what_was_briefed_and_whether_the_plan_was_attemp
     assert new.editor.attempted is attempted
 
 
+@pytest.mark.long("journey")
 def test_the_words_of_the_debrief_have_their_share_in_another_language(rebuilding, settle):
     debrief = rebuilding.window.feature(DebriefFeature)
     debrief._controller._read(review)
@@ -126,6 +130,7 @@ def test_the_words_of_the_debrief_have_their_share_in_another_language(rebuildin
     assert page._splitter.sizes()[0] == pytest.approx(600, abs=20)
 
 
+@pytest.mark.long("journey")
 def test_another_language_shows_the_debrief_that_was_shown(rebuilding, settle):
     debrief = rebuilding.window.feature(DebriefFeature)
     shown = review()
@@ -171,6 +176,7 @@ def test_whoever_says_no_to_unsaved_work_keeps_window_plan_and_language(
     assert QApplication.instance().quitOnLastWindowClosed()
 
 
+@pytest.mark.long("journey")
 def test_each_is_asked_once_about_unsaved_work(patient, rebuilding, monkeypatch):
     asked = []
     feature = rebuilding.window.features[-1]
@@ -179,6 +185,7 @@ def test_each_is_asked_once_about_unsaved_work(patient, rebuilding, monkeypatch)
     assert asked == [1]
 
 
+@pytest.mark.long("journey")
 def test_choosing_what_is_chosen_does_nothing(rebuilding):
     window = rebuilding.window
     rebuilding.change("")
@@ -186,6 +193,7 @@ def test_choosing_what_is_chosen_does_nothing(rebuilding):
     assert QApplication.instance().quitOnLastWindowClosed()
 
 
+@pytest.mark.long("journey")
 def test_choosing_by_name_what_the_computer_has_is_remembered_and_builds_nothing(rebuilding):
     window = rebuilding.window
     rebuilding.change(language.code_for(""))
@@ -196,6 +204,7 @@ def test_choosing_by_name_what_the_computer_has_is_remembered_and_builds_nothing
     assert language.chosen(window.settings) == ""
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("role", Role)
 def test_everybody_chooses_the_language_in_the_menu_of_views(rebuilding, role, settle):
     for choice in ("de", "en"):  # in the first window, and in the one that takes its place
@@ -208,6 +217,7 @@ def test_everybody_chooses_the_language_in_the_menu_of_views(rebuilding, role, s
         settle(lambda window=window: not isValid(window))
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("who", ["instructor", "student"])
 def test_whoever_is_signed_in_stays_so_in_another_language(rebuilding, settle, who):
     """Seen: the instructor chose German, and was a student on the start page."""

@@ -71,6 +71,7 @@ def test_a_maximised_pane_has_the_whole_room_and_gives_it_back(application, dest
     assert all(panes[name].isHidden() for name in ALL if name not in layout.panes)
 
 
+@pytest.mark.long("journey")
 def test_the_menu_and_the_keys_choose_layouts(window, patient):
     window.show_patient(patient)
     workspace, actions = window.workspace, window.view_menu.layouts
@@ -84,6 +85,7 @@ def test_the_menu_and_the_keys_choose_layouts(window, patient):
     assert actions["2x2"].shortcut().toString() == "Ctrl+1"
 
 
+@pytest.mark.long("journey")
 def test_a_left_handed_desk_has_the_panel_on_the_right(window, patient, settle):
     window.show_patient(patient)
     window.resize(1366, 768)

@@ -65,6 +65,7 @@ def test_a_link_is_a_line_with_its_peers_and_what_was_said_last():
     assert link_item(waiting).verdict is Verdict.IDLE
 
 
+@pytest.mark.long("journey")
 def test_without_links_there_is_no_line(window, links):
     feature = window.feature(LinksFeature)
     assert [item.title for item in feature.items(None)] == ["OpenIGTLink"]
@@ -72,6 +73,7 @@ def test_without_links_there_is_no_line(window, links):
     assert feature.items(None) == ()
 
 
+@pytest.mark.long("journey")
 def test_a_plan_of_a_peer_is_the_window_s_plan_and_can_be_undone(window, patient, send):
     window.show_patient(patient)
     assert send() == ""
@@ -81,16 +83,19 @@ def test_a_plan_of_a_peer_is_the_window_s_plan_and_can_be_undone(window, patient
     assert window.editor.edit.draft.entry_mm is None
 
 
+@pytest.mark.long("journey")
 def test_without_a_patient_nobody_takes_a_plan(window, send):
     assert send() == "no patient is open"
 
 
+@pytest.mark.long("journey")
 def test_points_that_are_no_plan_are_refused_with_the_reason(window, patient, send):
     window.show_patient(patient)
     assert "mm" in send(ENTRY, ENTRY)
     assert window.editor.edit.draft.entry_mm is None
 
 
+@pytest.mark.long("journey")
 def test_during_an_attempt_the_plan_stays(window, patient, services, settle, send):
     window.show_patient(patient)
     plan(window)

@@ -87,6 +87,7 @@ def test_what_the_daily_and_the_registration_check_say_is_in_german(german):
     assert not [line for line in registration_words.MEANING if text.translated(line) == line]
 
 
+@pytest.mark.long("journey")
 def test_no_text_is_fixed_in_the_language_in_which_a_module_was_imported():
     """A text that is made at import stays as it is when another language is chosen."""
     fixed = []

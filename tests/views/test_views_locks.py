@@ -56,6 +56,7 @@ def wheel(widget, notches):
 
 
 # --- assistance -------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_the_dial_of_against_repulsion_cannot_be_turned_in_the_window(opened):
     window = opened(load_exercise("against-repulsion"))
     panel = window.workspace.exercise_panel
@@ -82,6 +83,7 @@ def trainer_of(exercise, folder):
     return trainer
 
 
+@pytest.mark.long("journey")
 def test_the_trainer_itself_refuses_to_turn_a_locked_dial(tmp_path):
     trainer = trainer_of(load_exercise("against-repulsion"), tmp_path)
     trainer.step()
@@ -90,6 +92,7 @@ def test_the_trainer_itself_refuses_to_turn_a_locked_dial(tmp_path):
     assert trainer.step().assistance == -0.5
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("probe", [False, True])
 def test_the_trainer_refuses_help_where_control_scans_guide_and_in_a_probe(tmp_path, probe):
     exercise = load_exercise("first-insertion")
@@ -108,6 +111,7 @@ def test_the_trainer_refuses_help_where_control_scans_guide_and_in_a_probe(tmp_p
     trainer.close()
 
 
+@pytest.mark.long("journey")
 def test_the_controller_says_that_a_dial_is_locked_and_shows_what_it_is(opened, tmp_path):
     window = opened(load_exercise("against-repulsion"))
     controller, run = window.conductor.controller, window.runs.run
@@ -122,6 +126,7 @@ def test_the_controller_says_that_a_dial_is_locked_and_shows_what_it_is(opened, 
     assert trainer.snapshot().assistance == -0.5
 
 
+@pytest.mark.long("journey")
 def test_a_free_dial_says_so_and_every_attempt_begins_with_the_exercises(opened, tmp_path):
     window = opened(load_exercise("first-insertion"))
     panel = window.workspace.exercise_panel
@@ -151,6 +156,7 @@ def reading_of(window):
     return windows, slabs, workspace.layout_name
 
 
+@pytest.mark.long("journey")
 def test_an_assessment_keeps_window_slab_and_layout_whatever_one_does(opened, settle):
     window = opened(load_exercise("scans-only"))
     workspace, viewing, greys = (
@@ -186,6 +192,7 @@ def test_an_assessment_keeps_window_slab_and_layout_whatever_one_does(opened, se
     greys.set_linked(True)
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_begins_with_the_window_slab_and_layout_of_its_exercise(opened):
     part = ReadingPart.model_validate(
         {"window": "lung", "slab": {"kind": "mip", "thickness_mm": 10}, "layout": "1+3"}
@@ -203,6 +210,7 @@ def test_an_attempt_begins_with_the_window_slab_and_layout_of_its_exercise(opene
     assert viewing.window == WindowLevel(77.0, 7.0)  # not locked: only the beginning is the same
 
 
+@pytest.mark.long("journey")
 def test_leaving_an_assessment_gives_everything_back(opened):
     window = opened(load_exercise("scans-only"))
     window = opened(load_exercise("first-insertion"))
@@ -215,6 +223,7 @@ def test_leaving_an_assessment_gives_everything_back(opened):
 
 
 # --- hand -------------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_a_locked_hand_is_the_exercises_and_no_other_can_be_chosen(opened):
     window = opened(load_exercise("first-insertion"))
     source = window.workspace.bullseye.source
@@ -234,6 +243,7 @@ def test_a_locked_hand_is_the_exercises_and_no_other_can_be_chosen(opened):
     assert (source.name, source.gain.currentData()) == ("tablet", "fine")
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_begins_with_the_hand_that_its_exercise_names(opened):
     named = load_exercise("first-insertion").model_copy(update={"hand": HandName.TABLET})
     window = opened(named)

@@ -157,6 +157,7 @@ def test_pictures_are_compared_as_they_are_seen(page, tmp_path):
 
 
 # --- the pages --------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_start_page_debrief_and_sessions_keep_the_rules(window, settle):
     at_rest(window, settle)
     for role in Role:
@@ -170,6 +171,7 @@ def test_start_page_debrief_and_sessions_keep_the_rules(window, settle):
         assert broken(window) == set()
 
 
+@pytest.mark.long("journey")
 def test_the_workspace_keeps_the_rules_before_an_attempt_and_in_it(window, patient, settle):
     at_rest(window, settle)
     begun(window, patient, start=False)
@@ -183,6 +185,7 @@ def test_the_workspace_keeps_the_rules_before_an_attempt_and_in_it(window, patie
     window.workspace.room.end()
 
 
+@pytest.mark.long("journey")
 def test_the_authors_form_keeps_the_rules_on_every_page(window, patient, settle):
     window.roles.choose(Role.INSTRUCTOR)
     begun(window, patient, start=False)
@@ -199,6 +202,7 @@ def test_the_authors_form_keeps_the_rules_on_every_page(window, patient, settle)
     dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_with_longer_words_the_window_still_fits_a_small_screen(
     application, services, destroy, settle
 ):

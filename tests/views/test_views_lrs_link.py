@@ -32,6 +32,7 @@ def student():
     return People().add(RosterLine("Ada"))[0].key
 
 
+@pytest.mark.long("journey")
 def test_nothing_is_sent_until_a_store_is_named(window, feature, settle):
     folder = feature.context.services.sessions()
     record(folder, "a", student(), 72.0)
@@ -40,6 +41,7 @@ def test_nothing_is_sent_until_a_store_is_named(window, feature, settle):
     assert not (People().folder / "statements").exists()
 
 
+@pytest.mark.long("journey")
 def test_a_store_is_looked_at_kept_and_told(window, feature, settle):
     folder = feature.context.services.sessions()
     record(folder, "a", student(), 72.0)
@@ -72,6 +74,7 @@ def test_a_store_is_looked_at_kept_and_told(window, feature, settle):
     assert settle(lambda: not feature.page.board.lrs.text())
 
 
+@pytest.mark.long("journey")
 def test_it_is_told_quietly_but_not_while_an_attempt_runs(window, feature, settle):
     folder = feature.context.services.sessions()
     record(folder, "a", student(), 72.0)
@@ -96,6 +99,7 @@ def test_it_is_told_quietly_but_not_while_an_attempt_runs(window, feature, settl
     assert [(one.who, one.what) for one in entries()][-1] == ("program", "statements sent")
 
 
+@pytest.mark.long("journey")
 def test_a_store_that_is_away_is_left_alone_for_a_while(window, feature, settle):
     folder = feature.context.services.sessions()
     record(folder, "a", student(), 72.0)
@@ -118,6 +122,7 @@ def test_a_store_that_is_away_is_left_alone_for_a_while(window, feature, settle)
     assert feature.lrs._not_before == 0.0
 
 
+@pytest.mark.long("journey")
 def test_the_record_store_is_the_instructors(window, feature, settle):
     People().set_instructor("correct horse battery")
     feature.look()

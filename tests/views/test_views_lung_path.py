@@ -47,6 +47,7 @@ def column(panel, number):
     return [panel.table.item(row, number).text() for row in range(panel.table.rowCount())]
 
 
+@pytest.mark.long("journey")
 def test_nothing_is_reported_before_it_is_asked_for(planned, settle):
     settle()
     assert part(planned).reports is None
@@ -54,6 +55,7 @@ def test_nothing_is_reported_before_it_is_asked_for(planned, settle):
     assert part(planned).panel.make.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_the_report_is_shown_and_marked_and_what_is_not_labelled_is_not_known(planned, settle):
     lung = part(planned)
     lung.panel.make.click()
@@ -71,6 +73,7 @@ def test_the_report_is_shown_and_marked_and_what_is_not_labelled_is_not_known(pl
     assert all(layer._shown for layer in lung._layers)
 
 
+@pytest.mark.long("journey")
 def test_an_alternative_stands_beside_the_plan_and_the_report_follows_the_plan(planned, settle):
     lung = part(planned)
     lung.panel.make.click()
@@ -87,6 +90,7 @@ def test_an_alternative_stands_beside_the_plan_and_the_report_follows_the_plan(p
     assert column(lung.panel, 1)[0] == "1 (8° at 10 mm)"
 
 
+@pytest.mark.long("journey")
 def test_clearing_takes_table_and_marks_away_and_another_patient_too(planned, patient, settle):
     lung = part(planned)
     for clear in (lung.panel.clear.click, lambda: planned.show_patient(patient)):
@@ -99,6 +103,7 @@ def test_clearing_takes_table_and_marks_away_and_another_patient_too(planned, pa
         assert lung.panel.table.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_a_path_that_misses_the_lung_is_told_in_a_line(planned, settle):
     planned.editor.start(DraftPlan(ENTRY, (0.0, -12.0, 140.0), "short"))
     lung = part(planned)

@@ -62,6 +62,7 @@ def test_a_drag_measures_a_distance_and_lays_the_tool_down(shown) -> None:
     assert shown.feature(MeasureFeature).panel.table.item(0, 1).text() == "15.0 mm"
 
 
+@pytest.mark.long("journey")
 def test_an_angle_is_two_drags_or_a_drag_and_a_click(shown) -> None:
     pane, editor = shown.workspace.panes[0], shown.editors.measures
     for second in ((C,), ((5.0, 5.0, 140.0), C)):
@@ -77,6 +78,7 @@ def test_an_angle_is_two_drags_or_a_drag_and_a_click(shown) -> None:
     assert value == pytest.approx(expected, abs=1e-6)
 
 
+@pytest.mark.long("journey")
 def test_a_click_probes_and_a_drag_makes_a_region(shown) -> None:
     pane, editor = shown.workspace.panes[0], shown.editors.measures
     editor.set_tool(MeasureTool.PROBE)
@@ -92,6 +94,7 @@ def test_a_click_probes_and_a_drag_makes_a_region(shown) -> None:
     assert text.startswith("mean 40.0 HU  ± 0.0 HU")
 
 
+@pytest.mark.long("journey")
 def test_a_click_with_distance_or_region_measures_nothing(shown) -> None:
     pane, editor = shown.workspace.panes[0], shown.editors.measures
     for tool in (MeasureTool.DISTANCE, MeasureTool.REGION, MeasureTool.ANGLE):
@@ -110,6 +113,7 @@ def test_a_handle_is_dragged_as_one_step_to_undo(shown) -> None:
     np.testing.assert_allclose(editor.items[0].points, (A, B), atol=1e-6)
 
 
+@pytest.mark.long("journey")
 def test_a_measurement_is_drawn_in_its_slice_only(shown) -> None:
     editor, viewing = shown.editors.measures, shown.workspace.viewing
     pane = shown.workspace.panes[0]
@@ -128,6 +132,7 @@ def test_a_measurement_is_drawn_in_its_slice_only(shown) -> None:
     assert pane.grab().toImage().width() > 0
 
 
+@pytest.mark.long("journey")
 def test_undo_takes_back_the_last_step_whoever_made_it(shown) -> None:
     editor, planner = shown.editors.measures, shown.editor
     plan(shown)
@@ -145,6 +150,7 @@ def test_undo_takes_back_the_last_step_whoever_made_it(shown) -> None:
     assert planner.edit.draft.target_mm == (4.0, 4.0, 140.0)
 
 
+@pytest.mark.long("journey")
 def test_a_locked_plan_forbids_no_undo_of_a_measurement(shown) -> None:
     editor, planner = shown.editors.measures, shown.editor
     editor.add(Distance(A, B))
@@ -184,6 +190,7 @@ def test_esc_lays_the_tool_down_and_a_plan_tool_takes_its_place(shown) -> None:
     assert shown.workspace.viewing.tool is Tool.NAVIGATE
 
 
+@pytest.mark.long("journey")
 def test_names_are_typed_in_the_list_and_rows_removed(shown) -> None:
     editor, panel = shown.editors.measures, shown.feature(MeasureFeature).panel
     editor.add(Distance(A, B))

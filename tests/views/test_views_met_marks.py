@@ -83,6 +83,7 @@ def attempted_review(what=MET):
     )
 
 
+@pytest.mark.long("journey")
 def test_the_mark_lies_on_its_place_in_the_patient_over_slices_and_in_3d(shown, settle):
     assert settle(lambda: all(layer._places for layer in shown.views.met[:1]))
     layer, canvas = shown.views.met[0], shown.views.panes[0].canvas
@@ -98,6 +99,7 @@ def test_the_mark_lies_on_its_place_in_the_patient_over_slices_and_in_3d(shown, 
     assert shown.views.met_scene.at(x, y).name == "✖ rib"
 
 
+@pytest.mark.long("journey")
 def test_who_points_at_a_mark_is_told_kind_length_and_force(shown, settle, monkeypatch):
     texts = []
     monkeypatch.setattr(QToolTip, "showText", lambda at, text, widget: texts.append(text))
@@ -114,6 +116,7 @@ def test_who_points_at_a_mark_is_told_kind_length_and_force(shown, settle, monke
     assert all("rib (bone)" in text and "9.4 N" in text for text in texts)
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_that_met_nothing_has_no_marks_of_the_one_before(shown, settle):
     volume = shown.views.viewing.volume
     shown.show_review(attempted(volume))
@@ -124,6 +127,7 @@ def test_an_attempt_that_met_nothing_has_no_marks_of_the_one_before(shown, settl
     assert shown.views.met_scene.at(x, y) is None
 
 
+@pytest.mark.long("journey")
 def test_published_odds_are_folded_away_until_somebody_wants_them(shown, settle):
     odds = shown.published
     shown.fold.setChecked(True)

@@ -122,6 +122,7 @@ def test_there_is_no_map_without_a_target(window, patient):
     assert window.progress.count == 0
 
 
+@pytest.mark.long("journey")
 def test_a_map_is_made_shown_and_changes_no_plan_until_a_path_is_taken(planned, settle):
     before = planned.editor.edit.draft
     planned.feature(PathsFeature).make()
@@ -141,6 +142,7 @@ def test_a_map_is_made_shown_and_changes_no_plan_until_a_path_is_taken(planned, 
     assert planned.editor.edit.draft == before
 
 
+@pytest.mark.long("journey")
 def test_cancelling_leaves_neither_map_nor_message(planned, settle, monkeypatch):
     begun, real = threading.Event(), skin.skin_points
 
@@ -169,6 +171,7 @@ def test_another_target_takes_the_map_away(planned, settle):
     assert planned.feature(PathsFeature).panel.table.rowCount() == 0
 
 
+@pytest.mark.long("journey")
 def test_a_failure_is_told_and_another_try_is_possible(planned, settle, monkeypatch):
     def fails(body, progress):
         raise ValueError("no skin here")
@@ -179,6 +182,7 @@ def test_a_failure_is_told_and_another_try_is_possible(planned, settle, monkeypa
     assert planned.feature(PathsFeature).panel.make.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_the_map_reaches_panes_that_a_later_layout_shows(planned, settle):
     planned.feature(PathsFeature).make()
     assert settle(lambda: planned.feature(PathsFeature).scores is not None)
@@ -193,6 +197,7 @@ def test_the_map_reaches_panes_that_a_later_layout_shows(planned, settle):
     assert settle(lambda: layer._dots.isVisible() and len(layer._dots._places) > 0)
 
 
+@pytest.mark.long("journey")
 def test_patients_that_come_and_go_leave_no_map(planned, patient, settle):
     planned.feature(PathsFeature).make()
     assert settle(lambda: planned.feature(PathsFeature).scores is not None)

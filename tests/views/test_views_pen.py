@@ -135,6 +135,7 @@ def test_what_is_chosen_is_read_and_what_cannot_be_is_refused(page):
     assert not page.use.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_the_net_is_written_and_a_size_that_fits_no_paper_is_said(page, tmp_path):
     page.choice.write(tmp_path / "pen.pdf")
     assert (tmp_path / "pen.pdf").read_bytes().startswith(b"%PDF")
@@ -144,6 +145,7 @@ def test_the_net_is_written_and_a_size_that_fits_no_paper_is_said(page, tmp_path
     assert "does not fit" in page.choice.written.text()
 
 
+@pytest.mark.long("journey")
 def test_size_and_lens_of_a_simulated_webcam_are_not_asked_for(page):
     page.choice.source.show_source("simulated")
     assert not page.choice.lens.isEnabled()
@@ -151,6 +153,7 @@ def test_size_and_lens_of_a_simulated_webcam_are_not_asked_for(page):
     assert page.choice.lens.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_the_page_says_one_thing_of_a_simulated_webcam_s_lens(page, settle):
     def words():
         told = [one.text() for one in page.status.lines.findChildren(QLabel)]
@@ -181,12 +184,14 @@ def test_the_lens_of_either_camera_of_a_pair_can_be_chosen(page, tmp_path):
 
 
 # --- the live picture -----------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_the_page_shows_the_picture_the_accuracy_and_what_is_seen(page, settle):
     assert settle(lambda: page.preview.picture.has_image)
     assert settle(lambda: "known to ±" in page.status.accuracy.text())
     assert "faces of the cube" in page.status.lines.text
 
 
+@pytest.mark.long("journey")
 def test_a_webcam_that_stops_is_said_and_the_pen_is_shown_again_when_it_comes_back(
     page, services, settle
 ):
@@ -198,11 +203,13 @@ def test_a_webcam_that_stops_is_said_and_the_pen_is_shown_again_when_it_comes_ba
     assert settle(lambda: "known to ±" in page.status.accuracy.text())
 
 
+@pytest.mark.long("journey")
 def test_a_fault_of_the_tracker_is_said(page, services, settle):
     services.pens[-1].fault = "the pictures are 640x480, the calibration is of 1280x720"
     assert settle(lambda: "1280x720" in page.status.accuracy.text())
 
 
+@pytest.mark.long("journey")
 def test_a_webcam_that_is_missing_is_said_and_can_be_tried_again(window, services, settle):
     services.refuses = "no camera at usb:1-1; none is plugged in"
     window.feature(PenFeature).open()
@@ -216,6 +223,7 @@ def test_a_webcam_that_is_missing_is_said_and_can_be_tried_again(window, service
     page.reject()
 
 
+@pytest.mark.long("journey")
 def test_another_webcam_is_opened_a_moment_after_it_was_chosen_and_the_first_is_closed(
     page, services, settle
 ):
@@ -242,6 +250,7 @@ def test_a_rocked_pen_is_measured_with_progress_sides_and_positions_held_back(
     assert "not saved" in page.tip.state.text()
 
 
+@pytest.mark.long("journey")
 def test_a_measured_tip_is_saved_used_and_taken_back(page, services, settle, looks):
     rock(page, services, looks)
     page.tip.finish()
@@ -258,6 +267,7 @@ def test_a_measured_tip_is_saved_used_and_taken_back(page, services, settle, loo
     assert PenSettings().profile().tip.calibrated
 
 
+@pytest.mark.long("journey")
 def test_escape_stops_a_measurement_and_leaves_the_page_open(page, services, looks):
     rock(page, services, looks, 5)
     QTest.keyClick(page, Qt.Key.Key_Escape)
@@ -267,6 +277,7 @@ def test_escape_stops_a_measurement_and_leaves_the_page_open(page, services, loo
     assert not calibrated_path("cube").is_file()
 
 
+@pytest.mark.long("journey")
 def test_too_few_positions_cannot_be_computed_and_a_pen_held_still_is_refused_by_name(
     page, services, settle, looks
 ):
@@ -298,6 +309,7 @@ def test_a_simulated_pen_is_practice_and_is_not_kept(application, settle, looks)
     assert not tip.save.isEnabled()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(("answer", "stays"), [("Save", True), ("Discard", False)])
 def test_a_tip_that_is_not_saved_is_asked_about_when_the_page_is_left(
     page, services, settle, looks, answer, stays
@@ -314,6 +326,7 @@ def test_a_tip_that_is_not_saved_is_asked_about_when_the_page_is_left(
 
 
 # --- the desk -------------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_using_the_pen_begins_a_run_on_it_is_remembered_and_the_robot_comes_back(
     window, patient, services, settle
 ):
@@ -337,6 +350,7 @@ def test_using_the_pen_begins_a_run_on_it_is_remembered_and_the_robot_comes_back
     assert settle(lambda: services.opened[-1].setup.robot.pen == "usb:1-1")
 
 
+@pytest.mark.long("journey")
 def test_the_run_on_the_pen_lets_its_webcam_go_while_the_page_is_open(
     window, patient, services, settle
 ):
@@ -355,6 +369,7 @@ def test_the_run_on_the_pen_lets_its_webcam_go_while_the_page_is_open(
     assert services.opened[-1].setup.robot.pen == "usb:1-1"
 
 
+@pytest.mark.long("journey")
 def test_the_page_leads_back_to_the_robot(window, patient, services, settle):
     window.equipment.use_pen("usb:1-1")
     window.show_patient(patient)
@@ -366,6 +381,7 @@ def test_the_page_leads_back_to_the_robot(window, patient, services, settle):
     assert not window.feature(PenFeature).used
 
 
+@pytest.mark.long("journey")
 def test_without_a_pen_of_last_time_the_menu_opens_the_page(window):
     assert window.feature(PenFeature).menu.robot.isChecked()
     window.feature(PenFeature).menu.pen.trigger()
@@ -374,6 +390,7 @@ def test_without_a_pen_of_last_time_the_menu_opens_the_page(window):
     window.feature(PenFeature).dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_the_robot_s_menu_opens_the_same_page(window):
     window.feature(RobotFeature).menu.robots.aboutToShow.emit()
     entry = next(
@@ -386,6 +403,7 @@ def test_the_robot_s_menu_opens_the_same_page(window):
     window.feature(PenFeature).dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_without_a_pen_neither_the_robot_s_menu_nor_the_sheet_of_keys_names_one(window):
     window.equipment.offers_pen = False
     menu = window.feature(RobotFeature).menu.robots
@@ -395,6 +413,7 @@ def test_without_a_pen_neither_the_robot_s_menu_nor_the_sheet_of_keys_names_one(
     assert ["pen and webcam" in sheet for sheet in sheets] == [True, False]
 
 
+@pytest.mark.long("journey")
 def test_pen_and_page_stay_closed_while_an_attempt_runs(window, patient, settle):
     window.show_patient(patient)
     plan(window)
@@ -406,6 +425,7 @@ def test_pen_and_page_stay_closed_while_an_attempt_runs(window, patient, settle)
     assert not window.equipment.use_pen("usb:0")
 
 
+@pytest.mark.long("journey")
 def test_real_cameras_are_let_go_for_the_page(window, patient, services, settle):
     one = OneCamera(source="usb:1-1"), OneCamera(source="usb:1-2")
     window.equipment.take_cameras(CameraSettings(left=one[0], right=one[1]))

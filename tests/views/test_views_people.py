@@ -76,6 +76,7 @@ def students(sessions):
     return [model.index(row, STUDENT).data() for row in range(model.rowCount())]
 
 
+@pytest.mark.long("journey")
 def test_without_a_password_everything_is_open_as_before(window, feature):
     assert ACCESS.may_manage
     assert not window.feature(DebriefFeature).sessions.delete_button.isHidden()
@@ -83,6 +84,7 @@ def test_without_a_password_everything_is_open_as_before(window, feature):
     assert feature.page.tabs.isTabVisible(1)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("leave", ["back", "sign out"])
 def test_who_leaves_the_page_without_a_patient_comes_to_the_start_page(
     window, feature, settle, leave
@@ -98,6 +100,7 @@ def test_who_leaves_the_page_without_a_patient_comes_to_the_start_page(
     assert window.pages.currentWidget() is window.start_page
 
 
+@pytest.mark.long("journey")
 def test_a_student_signs_in_and_the_record_will_name_a_key(window, feature, settle):
     person, pin = People().add(RosterLine("Ada"))
     panel = feature.context.conductor.views.panel
@@ -121,6 +124,7 @@ def test_a_student_signs_in_and_the_record_will_name_a_key(window, feature, sett
     assert (panel.student.text(), panel.student.isEnabled()) == ("typed", True)
 
 
+@pytest.mark.long("journey")
 def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_not_reach(
     window, feature, settle
 ):
@@ -174,12 +178,14 @@ def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_n
     assert ACCESS.may_manage
 
 
+@pytest.mark.long("journey")
 def test_the_list_says_what_the_signature_says(window, feature, settle):
     record(feature.context.services.sessions(), "a", "typed", sign=False)
     sessions = shown(window, settle)
     assert sessions.model.index(0, SIGNED).data() == "• unsigned"
 
 
+@pytest.mark.long("journey")
 def test_students_come_by_hand_and_by_roster(window, feature, settle, tmp_path):
     feature.show()
     feature.page.students.add.click()
@@ -202,6 +208,7 @@ def test_students_come_by_hand_and_by_roster(window, feature, settle, tmp_path):
     assert People().sign_in("Bob", pins[1]).groups == ("A",)
 
 
+@pytest.mark.long("journey")
 def test_a_course_is_made_in_a_form_that_says_what_is_wrong(window, feature, settle):
     feature.show()
     feature.page.courses.new.click()
@@ -251,6 +258,7 @@ def test_a_course_is_made_in_a_form_that_says_what_is_wrong(window, feature, set
     assert feature.dialog.course() == course
 
 
+@pytest.mark.long("journey")
 def test_a_student_may_not_begin_before_an_exercise_opens(window, feature, settle):
     _, pin = People().add(RosterLine("Ada"))
     known = next(iter(feature._exercises()))
@@ -264,6 +272,7 @@ def test_a_student_may_not_begin_before_an_exercise_opens(window, feature, settl
     assert ACCESS.refusal(known) == ""
 
 
+@pytest.mark.long("journey")
 def test_the_board_shows_the_curve_and_is_exported(window, feature, settle, tmp_path):
     person, _ = People().add(RosterLine("Ada"))
     record(feature.context.services.sessions(), "a", person.key, 72.0)
@@ -280,6 +289,7 @@ def test_the_board_shows_the_curve_and_is_exported(window, feature, settle, tmp_
     assert document["students"][0]["pseudonym"] == "Ada"
 
 
+@pytest.mark.long("journey")
 def test_the_board_and_the_curve_say_who_is_competent(window, feature, settle):
     """Twelve passes: the tenth makes him competent, by ten times log(0.9/0.6) against 3.89."""
     person, _ = People().add(RosterLine("Ada"))
@@ -297,6 +307,7 @@ def test_the_board_and_the_curve_say_who_is_competent(window, feature, settle):
     feature.dialog.close()
 
 
+@pytest.mark.long("journey")
 def test_a_course_that_is_edited_keeps_the_rates_of_its_file(feature):
     rule = CompetenceRule(acceptable=0.05, unacceptable=0.5)
     feature.edit_course(Course(id="c", title="C", competence=rule))
@@ -309,6 +320,7 @@ def test_a_course_that_is_edited_keeps_the_rates_of_its_file(feature):
     dialog.close()
 
 
+@pytest.mark.long("journey")
 def test_a_course_whose_rates_make_no_test_is_refused_in_the_form(feature):
     feature.edit_course(Course(id="c", title="C"))
     dialog = feature.dialog
@@ -320,6 +332,7 @@ def test_a_course_whose_rates_make_no_test_is_refused_in_the_form(feature):
     dialog.close()
 
 
+@pytest.mark.long("journey")
 def test_who_was_erased_is_shown_as_erased(window, feature, settle):
     person, _ = People().add(RosterLine("Ada"))
     People().add(RosterLine("Bob"))
@@ -335,6 +348,7 @@ def test_who_was_erased_is_shown_as_erased(window, feature, settle):
     assert ACCESS.shown(person.key) == "(erased)"
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_is_put_into_a_course_with_its_own_purpose(feature):
     feature.edit_course(None)
     dialog = feature.dialog
@@ -346,6 +360,7 @@ def test_an_exercise_is_put_into_a_course_with_its_own_purpose(feature):
         assert dialog.items.cellWidget(row, 3).currentData() == purpose
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_that_was_just_made_can_be_put_into_a_course(feature, monkeypatch):
     made = load_exercise("first-insertion").model_copy(update={"id": "made", "title": "Just made"})
     there = feature.context.services.exercises()
@@ -437,6 +452,7 @@ def test_the_instructor_goes_from_the_board_to_the_attempts_says_things_and_the_
     assert People().remarks()["a"].comment == "Look at the\nangle first"
 
 
+@pytest.mark.long("journey")
 def test_what_is_deleted_is_listed_apart_and_brought_back_after_the_window_was_closed(
     window, feature, settle
 ):
@@ -464,6 +480,7 @@ def test_what_is_deleted_is_listed_apart_and_brought_back_after_the_window_was_c
     assert settle(lambda: sessions.model.rowCount() == 2)
 
 
+@pytest.mark.long("journey")
 def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is_refused(
     window, feature, settle
 ):
@@ -507,6 +524,7 @@ def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is
     assert settle(lambda: tab.tree.topLevelItem(0).child(0).text(2) == "1 of 1 left")
 
 
+@pytest.mark.long("journey")
 def test_an_assessment_of_a_course_is_begun_by_its_students_and_the_instructor_alone(
     window, feature, settle
 ):
@@ -550,6 +568,7 @@ def test_an_assessment_of_a_course_is_begun_by_its_students_and_the_instructor_a
     assert ACCESS.refusal(name) == ""
 
 
+@pytest.mark.long("journey")
 def test_the_instructor_releases_all_results_of_a_course_at_once(window, feature, settle):
     ada, _ = People().add(RosterLine("Ada"))
     item = {"exercise": "first-insertion", "purpose": "assessment"}
@@ -568,6 +587,7 @@ def test_the_instructor_releases_all_results_of_a_course_at_once(window, feature
     assert all(People().remarks()[name].released for name in ("a", "b"))
 
 
+@pytest.mark.long("journey")
 def test_reports_of_the_group_and_of_the_student_chosen_are_written(
     window, feature, settle, tmp_path
 ):
@@ -588,6 +608,7 @@ def test_reports_of_the_group_and_of_the_student_chosen_are_written(
         assert (tmp_path / name).read_bytes().startswith(b"%PDF")
 
 
+@pytest.mark.long("journey")
 def test_a_gradebook_is_asked_for_by_identifier_and_rule_and_says_what_chance_does(
     window, feature, settle, tmp_path, monkeypatch
 ):
@@ -621,6 +642,7 @@ def test_a_gradebook_is_asked_for_by_identifier_and_rule_and_says_what_chance_do
     assert bob == "Bob,,"
 
 
+@pytest.mark.long("journey")
 def test_the_place_of_a_report_is_asked_for_and_offers_the_station_s_name(
     window, feature, settle, tmp_path, monkeypatch
 ):
@@ -640,6 +662,7 @@ def test_the_place_of_a_report_is_asked_for_and_offers_the_station_s_name(
     assert settle(path.exists)
 
 
+@pytest.mark.long("journey")
 def test_results_of_a_station_are_written_and_brought_together_in_the_window(
     window, feature, settle, tmp_path, monkeypatch
 ):
@@ -672,6 +695,7 @@ def test_results_of_a_station_are_written_and_brought_together_in_the_window(
     assert (tmp_path / "c.acus").stat().st_mode & 0o777 == 0o600
 
 
+@pytest.mark.long("journey")
 def test_stations_are_the_instructors(window, feature, settle, tmp_path):
     People().set_instructor("correct horse battery")
     feature.look()
@@ -708,6 +732,7 @@ def killed_of_ada(services):
     return left_of_an_attempt(services, person.key)
 
 
+@pytest.mark.long("journey")
 def test_an_interrupted_attempt_is_offered_at_the_start_and_kept_in_the_list_if_nobody_answers(
     killed, window, feature, settle
 ):
@@ -731,6 +756,7 @@ def test_an_interrupted_attempt_is_offered_at_the_start_and_kept_in_the_list_if_
     assert cell(sessions, "k1", SCORE) == ""
 
 
+@pytest.mark.long("journey")
 def test_a_student_may_recover_but_not_discard_and_reads_no_name(
     killed_of_ada, window, feature, settle
 ):
@@ -756,6 +782,7 @@ def test_a_student_may_recover_but_not_discard_and_reads_no_name(
     assert settle(lambda: read_recording(killed).complete)
 
 
+@pytest.mark.long("journey")
 def test_another_pin_is_drawn_only_after_a_question(window, feature, settle):
     """Seen: a click beside the button that was meant, and the PIN of a student was another one."""
     people = People()

@@ -76,6 +76,7 @@ def test_every_label_is_plain():
     assert kinds == ["parts.py: PlainLabel"]
 
 
+@pytest.mark.long("journey")
 def test_what_looks_for_markup_itself_is_given_literal_words():
     raw = []
     for file, node, name in calls():
@@ -124,6 +125,7 @@ def shows(widget: QWidget, name: str) -> bool:
     return any(name in one.text() for one in widget.findChildren(PlainLabel))
 
 
+@pytest.mark.long("journey")
 def test_the_whole_window_has_no_label_that_reads_markup(window, services, patient, settle):
     exercise = load_exercise("first-insertion").model_copy(update={"title": NAMES[0]})
     services.exercises = lambda: (exercise,)
@@ -157,6 +159,7 @@ def test_a_box_that_asks_shows_the_name_as_it_stands(application, name):
     box.deleteLater()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("name", NAMES)
 def test_a_student_and_a_course_are_named_as_they_stand(window, settle, name):
     feature = window.feature(PeopleFeature)

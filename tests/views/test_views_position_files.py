@@ -27,6 +27,7 @@ def told(placed):
     return notes, errors
 
 
+@pytest.mark.long("journey")
 def test_what_is_exported_comes_back_and_can_be_undone(placed, told, tmp_path, monkeypatch):
     path = tmp_path / "placed.tfm"
     monkeypatch.setattr(
@@ -47,6 +48,7 @@ def test_what_is_exported_comes_back_and_can_be_undone(placed, told, tmp_path, m
     assert not errors
 
 
+@pytest.mark.long("journey")
 def test_the_other_direction_is_refused_and_a_shift_that_cannot_be_kept_is_said(
     placed, told, tmp_path
 ):
@@ -68,6 +70,7 @@ def test_the_other_direction_is_refused_and_a_shift_that_cannot_be_kept_is_said(
     assert placed.editor.edit.placement.orientation is PatientOrientation.PRONE
 
 
+@pytest.mark.long("journey")
 def test_without_a_plan_and_with_a_file_that_is_none_it_says_so(window, patient, tmp_path):
     errors = []
     window.feature(PositionFeature).failed.connect(errors.append)

@@ -47,6 +47,7 @@ def under_way(window, patient, settle):
     return window
 
 
+@pytest.mark.long("journey")
 def test_closing_the_window_in_an_attempt_asks_and_enter_stays(under_way, asked):
     assert not under_way.close()
     assert [words for words, *_ in asked] == ["An attempt is running. End it and quit?"]
@@ -56,6 +57,7 @@ def test_closing_the_window_in_an_attempt_asks_and_enter_stays(under_way, asked)
     assert under_way.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_the_key_asks_too_and_who_confirms_leaves(under_way, asked, services):
     asked.by("End it and quit")
     under_way.activateWindow()
@@ -67,6 +69,7 @@ def test_the_key_asks_too_and_who_confirms_leaves(under_way, asked, services):
     assert services.opened[0].closed.is_set()
 
 
+@pytest.mark.long("journey")
 def test_between_attempts_nothing_is_asked(under_way, asked, settle):
     under_way.runs.run.trainer.state = State.ENDED
     assert settle(lambda: not under_way.editor.locked)
@@ -111,6 +114,7 @@ def test_what_was_recorded_stays_and_the_next_start_has_nothing_to_mend(
     assert left == [], "nothing to be mended at the next start"
 
 
+@pytest.mark.long("journey")
 def test_nobody_leaves_an_attempt_for_the_start_page_while_its_clock_runs(under_way):
     under_way.show_workspace()
     under_way.show_start()
@@ -118,6 +122,7 @@ def test_nobody_leaves_an_attempt_for_the_start_page_while_its_clock_runs(under_
     assert "end it before you go to the start page" in under_way.message_bar.text
 
 
+@pytest.mark.long("journey")
 def test_while_an_ended_attempt_is_scored_the_window_says_so_and_takes_no_order(under_way, settle):
     buttons = under_way.workspace.exercise_panel.buttons
     assert buttons.end.isEnabled()

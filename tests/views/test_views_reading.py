@@ -213,6 +213,7 @@ def test_a_window_can_be_kept_by_name_and_forgotten(pane, viewing):
 
 
 # --- turns ------------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("turn", TURNS, ids=str)
 @pytest.mark.parametrize("view", list(View))
 def test_places_letters_and_pixels_of_a_turned_pane_belong_together(volume, view, turn):
@@ -323,6 +324,7 @@ def test_cine_runs_there_and_back_until_something_is_touched(pane, viewing):
 
 
 # --- keyboard ---------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_the_arrows_go_through_the_panes_and_the_menu_key_opens_the_menu(window, patient, settle):
     window.show_patient(patient)
     window.activateWindow()
@@ -334,6 +336,7 @@ def test_the_arrows_go_through_the_panes_and_the_menu_key_opens_the_menu(window,
     assert panes[0].canvas is window.focusWidget()
 
 
+@pytest.mark.long("journey")
 def test_schemes_are_chosen_in_the_menu_and_change_its_keys(window):
     view = window.view_menu
     assert view.follow.shortcut().toString() == "F"
@@ -351,6 +354,7 @@ def test_the_sheet_of_keys_fits_a_small_screen(window):
     sheet.reject()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("scheme", SCHEMES.values(), ids=SCHEMES)
 def test_no_key_of_the_menus_is_taken_by_a_pane(window, scheme):
     window.workspace.viewing.set_scheme(scheme)

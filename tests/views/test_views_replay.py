@@ -105,6 +105,7 @@ def go(page, time):
     return needle_of(page)
 
 
+@pytest.mark.long("journey")
 def test_it_opens_where_the_needle_ended_in_slices_and_3d_with_plan_and_tolerances(shown):
     views, motion_ = shown.views, shown.review.motion
     assert {str(name) for name in views.grid.shown.panes} == {
@@ -121,6 +122,7 @@ def test_it_opens_where_the_needle_ended_in_slices_and_3d_with_plan_and_toleranc
     )
 
 
+@pytest.mark.long("journey")
 def test_slider_arrows_home_end_and_a_click_on_a_curve_move_every_view_together(shown, settle):
     shown.bar.slider.setValue(8000)
     assert shown.replayer.time == pytest.approx(8.0)
@@ -148,6 +150,7 @@ def test_slider_arrows_home_end_and_a_click_on_a_curve_move_every_view_together(
     assert shown.replayer.time == pytest.approx(5.0, abs=0.2)
 
 
+@pytest.mark.long("journey")
 def test_the_keys_replay_from_within_a_slice_too_and_up_and_down_still_scroll_it(shown):
     canvas = shown.views.panes[0].canvas
     canvas.setFocus()
@@ -160,6 +163,7 @@ def test_the_keys_replay_from_within_a_slice_too_and_up_and_down_still_scroll_it
     assert shown.replayer.time == pytest.approx(5.1)
 
 
+@pytest.mark.long("journey")
 def test_it_plays_at_the_speed_that_was_chosen_and_stands_still_at_the_end(shown, monkeypatch):
     now = [0.0]
     monkeypatch.setattr("app.views.debrief.replay.monotonic", lambda: now[0])
@@ -184,6 +188,7 @@ def test_it_plays_at_the_speed_that_was_chosen_and_stands_still_at_the_end(shown
     assert not shown.replayer.is_playing
 
 
+@pytest.mark.long("journey")
 def test_a_needle_that_tissue_bent_is_drawn_bent(shown, settle):
     volume = shown.views.viewing.volume
     shown.show_review(attempted(volume, bent=True))
@@ -202,6 +207,7 @@ def test_slices_lie_along_the_needle_or_along_the_planned_path_as_one_chooses(sh
     assert np.abs(frame.axis - path).max() > 0.05
 
 
+@pytest.mark.long("journey")
 def test_the_ideal_path_stands_beside_the_needle_as_deep_as_it_dotted_with_another_tip(shown):
     shown.show_ghost(Ghost("ideal"))
     shown.replayer.seek(12.0)
@@ -217,6 +223,7 @@ def test_the_ideal_path_stands_beside_the_needle_as_deep_as_it_dotted_with_anoth
     assert [line is None for line in shown.curves._ghost] == [True, False, False]
 
 
+@pytest.mark.long("journey")
 def test_another_attempt_stands_beside_it_at_the_same_time_or_at_the_same_depth(shown, settle):
     volume = shown.views.viewing.volume
     other = attempted(volume, side=0.001, seconds=10.0)
@@ -241,6 +248,7 @@ def test_another_attempt_stands_beside_it_at_the_same_time_or_at_the_same_depth(
     assert not shown.curves._dotted
 
 
+@pytest.mark.long("journey")
 def test_without_its_ct_it_says_so_offers_to_open_it_and_replays_the_rest(window, patient, settle):
     feature = window.feature(DebriefFeature)
     feature._controller._show(attempted(patient.volume), "")
@@ -255,6 +263,7 @@ def test_without_its_ct_it_says_so_offers_to_open_it_and_replays_the_rest(window
     assert settle(lambda: page.views.has_ct)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/user-guide.md: another patient's is never shown")
 def test_another_patients_ct_is_never_shown_under_an_attempt(window, patient, settle):
     window.show_patient(patient)
@@ -273,6 +282,7 @@ def test_another_patients_ct_is_never_shown_under_an_attempt(window, patient, se
     assert views.viewing.volume is None
 
 
+@pytest.mark.long("journey")
 def test_the_ct_is_opened_as_the_exercise_has_it_and_the_debrief_comes_back(
     window, patient, settle, monkeypatch
 ):
@@ -289,6 +299,7 @@ def test_the_ct_is_opened_as_the_exercise_has_it_and_the_debrief_comes_back(
     assert settle(lambda: feature.page.views.has_ct)
 
 
+@pytest.mark.long("journey")
 def test_what_comes_next_is_said_and_begun_by_its_button(shown, window):
     begun = []
     window.feature(DebriefFeature).begin_wanted.disconnect()
@@ -312,6 +323,7 @@ def test_what_comes_next_is_said_and_begun_by_its_button(shown, window):
     assert begun == ["thick-tissue", "first-insertion"]
 
 
+@pytest.mark.long("journey")
 def test_a_result_that_is_held_shows_neither_score_nor_replay_but_who_releases_it(shown, window):
     controller = window.feature(DebriefFeature)._controller
     controller._show(attempted(shown.views.viewing.volume), "Autumn")
@@ -324,6 +336,7 @@ def test_a_result_that_is_held_shows_neither_score_nor_replay_but_who_releases_i
     assert shown.retry.isVisibleTo(shown)
 
 
+@pytest.mark.long("journey")
 def test_beside_an_attempt_stand_the_ideal_path_and_comparable_ones_by_their_points(shown, window):
     from app.views.debrief.feature import ghost_words
 
@@ -381,6 +394,7 @@ def assessed(window):
     window.feature(PeopleFeature).close()
 
 
+@pytest.mark.long("journey")
 def test_the_list_tells_a_student_no_result_that_is_held_and_the_instructor_every_one(
     window, assessed, settle
 ):
@@ -458,6 +472,7 @@ def test_structures_that_the_patient_has_are_drawn_in_the_replay_too(shown, wind
     assert shown.views.scene.legend[0][1].endswith("vessel")
 
 
+@pytest.mark.long("journey")
 def test_a_target_that_breathing_moves_is_shown_where_it_was(shown):
     volume, placed = shown.views.viewing.volume, shown.review.placed
     breathing = attempted(volume)
@@ -472,6 +487,7 @@ def test_a_target_that_breathing_moves_is_shown_where_it_was(shown):
     assert np.abs(shown.views.viewing.target_now_mm - PLAN.target_mm).max() > 5.0
 
 
+@pytest.mark.long("journey")
 def test_a_scan_in_the_list_leads_to_the_moment_it_was_taken(shown):
     scan = SimpleNamespace(time=shown.review.origin + 7.0)
     shown._review = replace(shown.review, control_scans=(scan,))
@@ -479,6 +495,7 @@ def test_a_scan_in_the_list_leads_to_the_moment_it_was_taken(shown):
     assert shown.replayer.time == pytest.approx(7.0)
 
 
+@pytest.mark.long("journey")
 def test_the_instructor_lets_an_attempt_be_shown_in_place_of_the_expert(shown, window, monkeypatch):
     feature = window.feature(DebriefFeature)
     take, expert = feature._choices

@@ -53,6 +53,7 @@ def texts(table):
     return [[table.item(r, c).text() for c in range(6)] for r in range(table.rowCount())]
 
 
+@pytest.mark.long("journey")
 def test_who_is_due_is_listed_and_only_who_takes_part_can_answer(feature, settle):
     dialog = opened(feature, settle)
     rows = texts(dialog.table)
@@ -64,6 +65,7 @@ def test_who_is_due_is_listed_and_only_who_takes_part_can_answer(feature, settle
     assert offered == ["NASA Task Load Index", "Realism of the trainer", "System Usability Scale"]
 
 
+@pytest.mark.long("journey")
 def test_a_row_that_is_chosen_is_who_answers(feature, settle):
     dialog = opened(feature, settle)
     assert dialog.visit.currentText() == "pre"  # of the first that is open
@@ -89,6 +91,7 @@ def test_no_visit_is_chosen_by_chance_where_none_is_open(window):
     dialog.deleteLater()
 
 
+@pytest.mark.long("journey")
 def test_answers_by_the_keyboard_are_in_the_ledger_with_their_score(study, feature, settle):
     listed = opened(feature, settle)
     listed.table.selectRow(1)
@@ -107,6 +110,7 @@ def test_answers_by_the_keyboard_are_in_the_ledger_with_their_score(study, featu
     assert {p.code: p.arm for p in study.participants()}.keys() >= {entry["code"]}
 
 
+@pytest.mark.long("journey")
 def test_an_item_without_an_answer_is_named_and_nothing_is_kept(study, feature, settle):
     feature.answer("assistance-study", "Ada", "pre", "sus")
     dialog = feature.dialog
@@ -117,6 +121,7 @@ def test_an_item_without_an_answer_is_named_and_nothing_is_kept(study, feature, 
     assert not [one for one in study.ledger.entries() if one["kind"] == "answered"]
 
 
+@pytest.mark.long("journey")
 def test_a_slider_counts_only_once_it_was_touched(feature, settle):
     feature.answer("assistance-study", "Ada", "pre", "nasa-tlx")
     dialog = feature.dialog
@@ -128,6 +133,7 @@ def test_a_slider_counts_only_once_it_was_touched(feature, settle):
     assert dialog.answers == {"mental": 55.0}
 
 
+@pytest.mark.long("journey")
 def test_answers_are_not_lost_by_one_cancel(feature, settle):
     feature.answer("assistance-study", "Ada", "pre", "sus")
     dialog = feature.dialog
@@ -139,6 +145,7 @@ def test_answers_are_not_lost_by_one_cancel(feature, settle):
     assert feature.dialog is None
 
 
+@pytest.mark.long("journey")
 def test_the_same_questionnaire_twice_is_refused_before_anything_is_answered(
     study, feature, settle
 ):
@@ -154,6 +161,7 @@ def test_the_same_questionnaire_twice_is_refused_before_anything_is_answered(
     assert len([one for one in study.ledger.entries() if one["kind"] == "answered"]) == 1
 
 
+@pytest.mark.long("journey")
 def test_the_instructor_who_signs_in_hears_how_many_visits_are_due(study, window, settle):
     told = []
     window.feature(ResearchFeature).noted.connect(told.append)
@@ -164,6 +172,7 @@ def test_the_instructor_who_signs_in_hears_how_many_visits_are_due(study, window
     ACCESS.sign_in(None)
 
 
+@pytest.mark.long("journey")
 def test_every_shipped_questionnaire_fits_the_dialog(feature, window):
     for name in ("sus", "nasa-tlx", "realism"):
         feature.answer("assistance-study", "Ada", "pre", name)

@@ -22,6 +22,7 @@ def feature(window):
     window.feature(PeopleFeature).close()
 
 
+@pytest.mark.long("journey")
 def test_attempts_that_are_missing_come_back_and_it_is_told_what_stays(
     window, feature, settle, tmp_path
 ):
@@ -48,6 +49,7 @@ def test_attempts_that_are_missing_come_back_and_it_is_told_what_stays(
     assert {one.pseudonym for one in People().everybody()} == {"Ada", "Bob"}
 
 
+@pytest.mark.long("journey")
 def test_students_of_the_backup_take_the_place_of_those_here_where_that_is_asked(
     window, feature, settle, tmp_path
 ):
@@ -66,6 +68,7 @@ def test_students_of_the_backup_take_the_place_of_those_here_where_that_is_asked
     assert {one.pseudonym for one in People().everybody()} == {"Ada"}
 
 
+@pytest.mark.long("journey")
 def test_a_file_that_is_no_backup_and_a_wrong_key_change_nothing(window, feature, settle, tmp_path):
     said = []
     feature.failed.connect(said.append)
@@ -81,6 +84,7 @@ def test_a_file_that_is_no_backup_and_a_wrong_key_change_nothing(window, feature
     assert settle(lambda: len(said) == 2)
 
 
+@pytest.mark.long("journey")
 def test_backups_are_the_instructors(window, feature, settle, tmp_path):
     People().set_instructor("correct horse battery")
     feature.look()
@@ -92,6 +96,7 @@ def test_backups_are_the_instructors(window, feature, settle, tmp_path):
     assert len(said) == 2
 
 
+@pytest.mark.long("journey")
 def test_an_encrypted_backup_asks_for_its_passphrase(window, feature, settle, tmp_path):
     folder = feature.context.services.sessions()
     person, _ = People().add(RosterLine("Ada"))
@@ -113,6 +118,7 @@ def test_an_encrypted_backup_asks_for_its_passphrase(window, feature, settle, tm
     feature.dialog.close()
 
 
+@pytest.mark.long("journey")
 def test_backups_into_a_folder_keep_its_passphrase(window, feature, settle, tmp_path):
     folder, room = feature.context.services.sessions(), tmp_path / "backups"
     person, _ = People().add(RosterLine("Ada"))

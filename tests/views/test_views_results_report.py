@@ -98,6 +98,7 @@ def facts(**given):
     return ReportFacts(**({"course": "Autumn", "group": "A", "now": NOW} | given))
 
 
+@pytest.mark.long("journey")
 def test_thirty_students_and_twelve_exercises_have_a_cover_to_sign_and_one_page_of_marks(drawn):
     titles = {f"exercise-{k}": f"Title of {k}" for k in range(12)}
     data = group_report(results_of(30, 12, 3), titles, facts(place="Basel, Theatre 2"))
@@ -119,6 +120,7 @@ def test_thirty_students_and_twelve_exercises_have_a_cover_to_sign_and_one_page_
     assert "page 2 of 2" in marks
 
 
+@pytest.mark.long("journey")
 def test_heads_stand_on_every_page_of_a_larger_group_and_all_are_there_once_a_block(drawn):
     group_report(results_of(70, 15, 2), {"exercise-0": "First"}, facts())
     pages = drawn()
@@ -131,6 +133,7 @@ def test_heads_stand_on_every_page_of_a_larger_group_and_all_are_there_once_a_bl
     assert all(f"page {n} of {len(pages)}" in page for n, page in enumerate(pages, 1))
 
 
+@pytest.mark.long("journey")
 def test_the_disclaimer_stands_in_a_report_once(drawn):
     group_report(results_of(70, 15, 2), {}, facts())
     assert [word for page in drawn() for word in page].count(DISCLAIMER) == 1
@@ -171,6 +174,7 @@ def test_names_are_sorted_as_the_language_of_the_reader_sorts_them(application):
         QLocale.setDefault(before)
 
 
+@pytest.mark.long("journey")
 def test_a_report_of_a_group_tells_how_far_it_is_and_can_be_cancelled(drawn):
     told = []
     group_report(results_of(30, 12, 3), {}, facts(), Progress(lambda f, _: told.append(f)))

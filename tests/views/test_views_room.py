@@ -238,6 +238,7 @@ def test_the_lock_is_kept_for_each_exercise_alone(window, patient):
     assert greys.common == WindowLevel(300.0, 30.0)
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_says_what_one_begins_with_and_later_what_one_left_counts(window, patient):
     window.show_patient(patient)
     workspace, greys = window.workspace, window.workspace.viewing.greys
@@ -254,6 +255,7 @@ def test_an_exercise_says_what_one_begins_with_and_later_what_one_left_counts(wi
     assert workspace.layout_name == "needle"
 
 
+@pytest.mark.long("journey")
 def test_what_an_exercise_locks_can_be_changed_by_nobody_until_the_next(window, patient):
     window.show_patient(patient)
     workspace, greys, menu = window.workspace, window.workspace.viewing.greys, window.view_menu
@@ -284,6 +286,7 @@ def test_what_an_exercise_locks_can_be_changed_by_nobody_until_the_next(window, 
     assert greys.common == PRESETS["Lung"]
 
 
+@pytest.mark.long("journey")
 def test_what_an_exercise_does_not_name_it_does_not_lock(window, patient):
     window.show_patient(patient)
     window.conductor.set_exercise(with_reading(window, 4, layout="1+3", locked=True))
@@ -308,6 +311,7 @@ def test_the_debrief_and_the_map_stay_readable_when_the_light_goes_on(window, pa
     assert len(set(colours)) == len(colours)
 
 
+@pytest.mark.long("journey")
 def test_each_exercise_is_read_as_it_was_read_before(window, patient):
     window.show_patient(patient)
     workspace, viewing = window.workspace, window.workspace.viewing
@@ -327,6 +331,7 @@ def test_each_exercise_is_read_as_it_was_read_before(window, patient):
     assert viewing.presentation(PaneId.CORONAL) == Presentation()
 
 
+@pytest.mark.long("journey")
 def test_scheme_hand_and_kept_windows_are_remembered(services, window, patient, destroy):
     window.show_patient(patient)
     window.view_menu.schemes["slicer"].trigger()
@@ -398,6 +403,7 @@ def test_from_the_head_left_and_right_change_places(volume):
     assert letters(volume, View.AXIAL, head)[:2] == ("L", "R")
 
 
+@pytest.mark.long("journey")
 def test_the_menu_turns_the_slices_and_back(window, patient):
     window.show_patient(patient)
     viewing, operator = window.workspace.viewing, window.view_menu.operator
@@ -466,6 +472,7 @@ def test_verdicts_have_each_its_own_symbol_whatever_their_colour(blindness):
     assert len(set(symbols)) == len(symbols)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("side", OperatorSide)
 def test_a_turned_slice_is_shown_whole_and_in_the_middle(window, patient, settle, side):
     window.show_patient(patient)

@@ -29,12 +29,14 @@ def chosen(guided):  # noqa: F811
     return window, trainer
 
 
+@pytest.mark.long("journey")
 def test_a_plain_exercise_offers_nothing(guided) -> None:  # noqa: F811
     window, _ = guided
     window.workspace.show_exercise()
     assert not window.workspace.exercise_panel.scan.choices.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_choices_go_with_the_pedal(chosen) -> None:
     window, trainer = chosen
     panel = window.workspace.exercise_panel
@@ -55,6 +57,7 @@ def test_choices_go_with_the_pedal(chosen) -> None:
         assert widget.toolTip()
 
 
+@pytest.mark.long("journey")
 def test_the_dotted_lines_lean_with_the_gantry(chosen, settle) -> None:
     window, _ = chosen
     panel = window.workspace.exercise_panel.scan
@@ -66,6 +69,7 @@ def test_the_dotted_lines_lean_with_the_gantry(chosen, settle) -> None:
     assert slope == pytest.approx(np.tan(np.radians(10.0)), abs=1e-3)
 
 
+@pytest.mark.long("journey")
 def test_the_table_goes_where_the_tilted_slice_meets_the_crosshair(chosen) -> None:
     window, _ = chosen
     panel = window.workspace.exercise_panel.scan
@@ -76,6 +80,7 @@ def test_the_table_goes_where_the_tilted_slice_meets_the_crosshair(chosen) -> No
     assert met[2] == pytest.approx(panel.order.centre_mm, abs=0.06)  # the field has 0.1 mm
 
 
+@pytest.mark.long("journey")
 def test_the_wait_outside_is_seen_and_no_second_scan_is_taken(chosen) -> None:
     window, trainer = chosen
     panel, controller = window.workspace.exercise_panel, window.conductor.controller
@@ -97,6 +102,7 @@ def test_the_wait_outside_is_seen_and_no_second_scan_is_taken(chosen) -> None:
     assert panel.buttons.scan.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_the_dose_of_the_hand_is_summed_beside_the_other(chosen, settle) -> None:
     window, trainer = chosen
     window.conductor.controller.begin("s")
@@ -116,6 +122,7 @@ def test_the_dose_of_the_hand_is_summed_beside_the_other(chosen, settle) -> None
     assert "gantry tilted by 10°" in cells(scan, 3.0)[2]
 
 
+@pytest.mark.long("journey")
 def test_of_five_slices_those_about_the_tip_are_in_sight(window) -> None:
     view = ScanView(window.workspace.viewing)
     view.resize(700, 500)

@@ -387,6 +387,7 @@ def test_a_view_in_which_nothing_changes_or_that_nobody_sees_is_not_looked_at(vi
     assert settle(lambda: view.is_settled and view.picture() != old and not timer.isActive())
 
 
+@pytest.mark.long("journey")
 def test_a_view_that_stands_still_is_drawn_only_for_who_turns_it_and_goes_on_afterwards(
     view, settle
 ):
@@ -720,6 +721,7 @@ def test_a_key_switches_what_is_shown(view, key, part):
     assert spy.count() == 2
 
 
+@pytest.mark.long("journey")
 def test_the_menu_of_the_3d_view_says_what_each_entry_does_and_is_remembered(
     window, patient, settle
 ):

@@ -38,6 +38,7 @@ def other_station(monkeypatch, root, place, *attempts):
         return synchronise(place, root / "records", People(), trust=True)
 
 
+@pytest.mark.long("journey")
 def test_a_station_is_connected_and_lets_another_one_in(
     window, feature, settle, tmp_path, monkeypatch
 ):
@@ -87,6 +88,7 @@ def test_a_station_is_connected_and_lets_another_one_in(
     assert (tmp_path / "other" / "records" / "a.mcap").exists()
 
 
+@pytest.mark.long("journey")
 def test_what_comes_is_taken_in_quietly_but_not_while_an_attempt_runs(
     window, feature, settle, tmp_path, monkeypatch
 ):
@@ -109,6 +111,7 @@ def test_what_comes_is_taken_in_quietly_but_not_while_an_attempt_runs(
     assert settle(lambda: feature.page.board.store.text().startswith("School's store"))
 
 
+@pytest.mark.long("journey")
 def test_a_store_that_is_away_is_told_with_how_many_attempts_wait(
     window, feature, settle, tmp_path
 ):
@@ -135,6 +138,7 @@ def test_a_store_that_is_away_is_told_with_how_many_attempts_wait(
     feature.dialog.close()
 
 
+@pytest.mark.long("journey")
 def test_the_store_is_the_instructors(window, feature, settle, tmp_path):
     People().set_instructor("correct horse battery")
     feature.look()
@@ -147,6 +151,7 @@ def test_the_store_is_the_instructors(window, feature, settle, tmp_path):
     assert feature.dialog is None
 
 
+@pytest.mark.long("journey")
 def test_a_station_shows_what_others_compare(window, feature, settle):
     set_name("Theatre 1")
     feature.show()

@@ -97,6 +97,7 @@ def test_the_bullseye_is_empty_without_its_view_and_says_no_offset(shows):
     assert not panel.readouts._values["angle"].isVisible()
 
 
+@pytest.mark.long("journey")
 def test_the_bullseyes_cell_is_gone_where_nothing_would_be_in_it(shows):
     window = shows(frozenset({ViewName.THREE_D}), interactive=False)
     assert not window.workspace.has_bullseye
@@ -121,6 +122,7 @@ def test_the_3d_pane_says_that_it_is_off_and_draws_nothing(shows, settle):
     assert scene.is_settled
 
 
+@pytest.mark.long("journey")
 def test_camera_pictures_are_not_even_asked_for_without_their_view(shows):
     on, off = both(ViewName.CAMERAS)
     assert shows(on).asked
@@ -130,6 +132,7 @@ def test_camera_pictures_are_not_even_asked_for_without_their_view(shows):
     assert all("Not shown in this exercise" in camera._instead for camera in cameras)
 
 
+@pytest.mark.long("journey")
 def test_the_force_along_the_needle_is_read_at_arms_length(shows):
     on, off = both(ViewName.FORCE_GAUGE)
     window = shows(on)
@@ -142,6 +145,7 @@ def test_the_force_along_the_needle_is_read_at_arms_length(shows):
     assert not gauge.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_the_target_moves_on_slices_and_in_every_number_only_where_its_motion_is_shown(shows):
     on, off = both(ViewName.TARGET_MOTION)
     window = shows(on)
@@ -169,6 +173,7 @@ def test_where_scans_guide_nothing_that_tells_is_on_whatever_the_exercise_lists(
 
 
 # --- switched by the student ------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_a_student_switches_views_in_practice_and_the_run_is_built_anew_with_them(
     window, patient, settle, services
 ):
@@ -187,6 +192,7 @@ def test_a_student_switches_views_in_practice_and_the_run_is_built_anew_with_the
     assert window.workspace.needle_cell.gauge.isVisibleTo(window.workspace.needle_cell)
 
 
+@pytest.mark.long("journey")
 def test_locked_views_stay_and_say_why(window, patient, settle):
     locked = load_exercise("first-insertion").model_copy(update={"locks": (Lock.VIEWS,)})
     window.conductor.set_exercise(locked)
@@ -267,6 +273,7 @@ def test_a_declaration_that_is_not_one_is_refused_by_file(tmp_path):
             declared_views(folder)
 
 
+@pytest.mark.long("journey")
 def test_a_snapshot_without_the_targets_motion_has_all_distances_to_the_target_at_rest(shows):
     window = shows(frozenset(ViewName))
     run = window.conductor.controller.run
@@ -277,6 +284,7 @@ def test_a_snapshot_without_the_targets_motion_has_all_distances_to_the_target_a
     assert Shown().of(snapshot, run.placed) is snapshot
 
 
+@pytest.mark.long("journey")
 def test_one_line_over_the_views_always_says_the_next_step(shows, settle):
     on, _ = both(ViewName.LIVE_OVERLAY)
     window = shows(on)
@@ -297,6 +305,7 @@ def test_one_line_over_the_views_always_says_the_next_step(shows, settle):
     assert not line.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_who_is_at_the_plan_is_not_told_to_start_and_the_views_do_not_move(shows, settle):
     on, _ = both(ViewName.LIVE_OVERLAY)
     window = shows(on)
@@ -313,6 +322,7 @@ def test_who_is_at_the_plan_is_not_told_to_start_and_the_views_do_not_move(shows
     assert settle(lambda: line.text() == "Pull back 2 mm (wheel towards you)")
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_that_waits_for_the_computer_blames_the_computer_in_large_letters(shows, settle):
     on, _ = both(ViewName.LIVE_OVERLAY)
     window = shows(on)
@@ -345,6 +355,7 @@ def test_every_step_is_an_order_in_words(kind, by_mouse):
     assert ("wheel" in words) <= by_mouse
 
 
+@pytest.mark.long("journey")
 def test_begin_means_begin_and_the_key_starts_beside_any_panel(window, patient, settle):
     window.conductor.set_exercise(load_exercise("first-insertion"))
     exercises = window.feature(ExerciseFeature)
@@ -364,6 +375,7 @@ def test_begin_means_begin_and_the_key_starts_beside_any_panel(window, patient, 
     assert settle(lambda: window.runs.run.trainer.state is State.ALIGNING)
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_whose_plan_is_the_students_begins_with_planning(window, patient):
     window.workspace.side.setCurrentIndex(0)
     before = window.workspace.side.currentIndex()

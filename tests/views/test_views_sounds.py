@@ -81,6 +81,7 @@ def seen(sounds):
     return [(item.verdict, item.text) for item in sounds.items(None)]
 
 
+@pytest.mark.long("journey")
 def test_a_cue_is_heard_and_written(running, speaker):
     window, sounds = running
     moment(window, depth=0.021, lateral=0.0, remaining=0.05)
@@ -90,6 +91,7 @@ def test_a_cue_is_heard_and_written(running, speaker):
     assert seen(sounds) == [(Verdict.WARNING, "off the path")]
 
 
+@pytest.mark.long("journey")
 def test_muted_it_is_seen_still_and_stays_muted(running, speaker, open_window):
     window, sounds = running
     sounds.menu.on.trigger()
@@ -104,6 +106,7 @@ def test_muted_it_is_seen_still_and_stays_muted(running, speaker, open_window):
     assert again.is_on
 
 
+@pytest.mark.long("journey")
 def test_scans_and_structures_come_from_their_events(running, speaker):
     window, _ = running
     speaker.played.clear()
@@ -112,6 +115,7 @@ def test_scans_and_structures_come_from_their_events(running, speaker):
     assert [kind for kind, _ in speaker.played] == ["scan", "breach"]
 
 
+@pytest.mark.long("journey")
 def test_another_volume_is_heard_at_once(running, speaker):
     _, sounds = running
     sounds.menu.volumes["loud"].trigger()
@@ -119,6 +123,7 @@ def test_another_volume_is_heard_at_once(running, speaker):
     assert sounds.volume == "loud"
 
 
+@pytest.mark.long("journey")
 def test_without_a_sound_card_the_menu_says_so_and_all_is_seen(
     open_window, patient, settle, services
 ):
@@ -138,6 +143,7 @@ def test_without_a_sound_card_the_menu_says_so_and_all_is_seen(
     assert seen(sounds)
 
 
+@pytest.mark.long("journey")
 def test_the_speaker_is_closed_with_the_window(running, speaker):
     sounds = running[1]
     sounds.close()

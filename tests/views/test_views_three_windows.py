@@ -119,6 +119,7 @@ def forbidden(window):
     return sorted({text for text in words(window) if FORBIDDEN.search(text)})
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("role", list(Role))
 def test_each_role_has_its_menus_and_panels(window, role):
     window.roles.choose(role)
@@ -126,6 +127,7 @@ def test_each_role_has_its_menus_and_panels(window, role):
     assert window.workspace.side.names() == PANELS[role]
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("role", list(Role))
 def test_a_walk_over_all_entries_meets_only_those_of_the_role(window, role):
     everything = reachable(window)
@@ -174,6 +176,7 @@ def recorded(window):
     return done
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("role", list(Role))
 def test_no_key_of_what_a_role_does_not_have_does_anything(window, role, settle):
     everything, done = entries(window.menuBar(), window), recorded(window)
@@ -232,6 +235,7 @@ def test_a_student_switches_no_camera_pictures_that_the_window_does_not_have(stu
     assert shown == {"3D view"}
 
 
+@pytest.mark.long("journey")
 def test_no_technical_word_meets_a_student_on_his_way(student, patient, settle):
     assert forbidden(student) == []
     student.show_patient(patient)
@@ -252,6 +256,7 @@ def test_no_technical_word_meets_a_student_on_his_way(student, patient, settle):
     assert forbidden(student) == []
 
 
+@pytest.mark.long("journey")
 def test_the_details_show_a_student_what_the_words_leave_out(student, patient, settle):
     student.show_patient(patient)
     plan(student)
@@ -262,6 +267,7 @@ def test_the_details_show_a_student_what_the_words_leave_out(student, patient, s
     assert any("Encoder" in text for text in forbidden(student))
 
 
+@pytest.mark.long("journey")
 def test_the_table_of_a_debrief_is_whole_in_its_details(student):
     page = student.feature(DebriefFeature).page
     page.show_review(review())
@@ -273,6 +279,7 @@ def test_the_table_of_a_debrief_is_whole_in_its_details(student):
     assert not page.details.isVisibleTo(page)
 
 
+@pytest.mark.long("journey")
 def test_the_role_is_refused_in_an_attempt_with_a_sentence(window, patient, settle):
     window.show_patient(patient)
     plan(window)
@@ -287,6 +294,7 @@ def test_the_role_is_refused_in_an_attempt_with_a_sentence(window, patient, sett
     window.conductor.controller.abort()
 
 
+@pytest.mark.long("journey")
 def test_the_role_is_remembered_where_no_password_is_set(application, services, destroy, window):
     window.roles.choose(Role.INSTRUCTOR)
     window.editor.saved(None)
@@ -296,6 +304,7 @@ def test_the_role_is_remembered_where_no_password_is_set(application, services, 
     assert other.roles.role is Role.INSTRUCTOR
 
 
+@pytest.mark.long("journey")
 def test_who_chose_nothing_is_a_student(application, services, destroy, monkeypatch):
     monkeypatch.delenv("ACUS_ROLE")
     window = MainWindow(services)
@@ -304,6 +313,7 @@ def test_who_chose_nothing_is_a_student(application, services, destroy, monkeypa
     assert not ACCESS.may_manage
 
 
+@pytest.mark.long("journey")
 def test_a_password_opens_the_other_roles_and_they_close_behind_the_instructor(window, settle):
     people, feature = People(), window.feature(PeopleFeature)
     people.set_instructor("correct horse")
@@ -322,6 +332,7 @@ def test_a_password_opens_the_other_roles_and_they_close_behind_the_instructor(w
     feature.close()
 
 
+@pytest.mark.long("journey")
 def test_who_signs_in_as_a_student_is_one(window, settle):
     ada, _ = People().add(RosterLine("Ada"))
     ACCESS.sign_in(ada)
@@ -331,6 +342,7 @@ def test_who_signs_in_as_a_student_is_one(window, settle):
     assert window.roles.role is Role.TECHNICIAN
 
 
+@pytest.mark.long("journey")
 def test_a_name_of_ones_choice_is_recorded_and_remembered(student):
     line = student.start_page.who.line
     assert line.isVisible()
@@ -340,6 +352,7 @@ def test_a_name_of_ones_choice_is_recorded_and_remembered(student):
     assert student.settings.value("student/name") == "Kestrel"
 
 
+@pytest.mark.long("journey")
 def test_the_keyboard_reaches_the_role(window, settle):
     assert window.roles.button.focusPolicy() is Qt.FocusPolicy.StrongFocus
     (key,) = [one for one in window.actions() if text_of(one) == "Role"]
@@ -386,6 +399,7 @@ def test_a_feature_that_declares_nothing_is_there_for_instructor_and_technician(
         assert ("Foreign" in window.workspace.side.names()) == (role in STAFF)
 
 
+@pytest.mark.long("journey")
 def test_a_students_window_opens_no_dropped_ct(student, monkeypatch):
     opened = []
     monkeypatch.setattr(student.open_ct, "open_folder", opened.append)
@@ -396,6 +410,7 @@ def test_a_students_window_opens_no_dropped_ct(student, monkeypatch):
     assert opened == [Path("somewhere")]
 
 
+@pytest.mark.long("journey")
 def test_what_was_said_to_a_technician_is_not_said_to_the_student_after_him(window):
     window.message_bar.show_error("run acus device emulate")
     window.roles.choose(Role.STUDENT)
@@ -418,6 +433,7 @@ def test_a_dialog_of_the_role_before_closes_with_it_and_a_page_of_help_stays(win
     assert checks.daily.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_a_dialog_that_waits_for_an_answer_stays_when_the_role_changes(window):
     window.roles.choose(Role.TECHNICIAN)
     dialog = QDialog(window)
@@ -439,6 +455,7 @@ def test_a_page_of_the_role_before_is_left_with_it(window):
     assert window.pages.currentWidget() is not accuracy.page
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("end", ["finished", "gone"])
 def test_a_message_that_an_attempt_runs_goes_with_the_attempt(window, monkeypatch, end):
     window.roles.choose(Role.TECHNICIAN)

@@ -38,6 +38,7 @@ def tour(window, settle, patient, monkeypatch):
     come.set()
 
 
+@pytest.mark.long("journey")
 def test_the_first_start_offers_the_tour_beside_everything_else(window, tour):
     assert window.start_page.offer.isVisible()
     assert not tour.veil.isVisible()  # nothing covers what a script or a hurried person presses
@@ -47,6 +48,7 @@ def test_the_first_start_offers_the_tour_beside_everything_else(window, tour):
     assert not tour.veil.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_the_tour_points_at_real_parts_in_turn_and_returns_where_it_began(window, tour, settle):
     window.start_page.tour.click()
     seen, titles = [], []
@@ -73,6 +75,7 @@ def test_the_tour_points_at_real_parts_in_turn_and_returns_where_it_began(window
     assert not tour.veil.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_it_can_be_left_at_any_time_and_repeated(window, tour):
     tour.begin()
     QTest.keyClick(tour.veil, Qt.Key.Key_Right)
@@ -105,6 +108,7 @@ def test_the_first_patient_comes_beside_it_and_it_stays_where_it_is(window, tour
     assert not window.conductor.controller.is_running
 
 
+@pytest.mark.long("journey")
 def test_who_leaves_early_is_not_taken_to_the_patient_later(window, tour, settle):
     tour.begin()
     QTest.keyClick(tour.veil, Qt.Key.Key_Escape)
@@ -114,6 +118,7 @@ def test_who_leaves_early_is_not_taken_to_the_patient_later(window, tour, settle
     assert window.pages.currentWidget() is window.start_page
 
 
+@pytest.mark.long("journey")
 def test_a_patient_who_comes_meanwhile_ends_it(window, tour, patient):
     window.show_patient(patient)
     window.show_start()

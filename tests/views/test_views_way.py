@@ -31,6 +31,7 @@ def told(panel):
     return panel.verdict.text()
 
 
+@pytest.mark.long("journey")
 def test_a_rod_of_bone_on_the_way_is_warned_of_without_any_map(window, panel, settle):
     plan(window)
     assert told(panel) == "…  The robot can follow; what lies on the way is being looked up…"
@@ -43,6 +44,7 @@ def test_a_rod_of_bone_on_the_way_is_warned_of_without_any_map(window, panel, se
     assert "The robot can follow this path." in told(panel)
 
 
+@pytest.mark.long("journey")
 def test_another_entry_is_judged_at_once_and_a_free_way_is_said(window, panel, settle):
     window.editor.place(Tool.ENTRY, (-8.0, -18.0, 140.0), True)
     window.editor.place(Tool.TARGET, BESIDE, True)
@@ -54,6 +56,7 @@ def test_another_entry_is_judged_at_once_and_a_free_way_is_said(window, panel, s
     assert window.feature(PlanFeature).way._tissues is made
 
 
+@pytest.mark.long("journey")
 def test_a_way_that_cannot_be_looked_up_is_told_with_the_reason(window, panel, settle, monkeypatch):
     def fails(*_, **__):
         raise ImagingError("no memory for it")
@@ -82,12 +85,14 @@ def somebody_loads():
     thread.join(10.0)
 
 
+@pytest.mark.long("journey")
 def test_the_way_is_known_while_a_robot_still_loads(window, panel, settle, request):
     request.getfixturevalue("somebody_loads")
     plan(window)
     assert settle(lambda: "on the way at" in told(panel))
 
 
+@pytest.mark.long("journey")
 def test_a_way_that_waits_for_the_program_to_load_says_so(
     window, panel, settle, request, monkeypatch
 ):
@@ -99,6 +104,7 @@ def test_a_way_that_waits_for_the_program_to_load_says_so(
     assert told(panel).startswith("…  The robot can follow")
 
 
+@pytest.mark.long("journey")
 def test_a_look_up_that_was_stopped_is_asked_for_again(window, panel, settle, monkeypatch):
     honest, calls = field_of, []
 
@@ -114,6 +120,7 @@ def test_a_look_up_that_was_stopped_is_asked_for_again(window, panel, settle, mo
     assert len(calls) == 2
 
 
+@pytest.mark.long("journey")
 def test_another_patient_and_the_end_of_the_window_take_the_look_up_away(
     window, panel, patient, settle, monkeypatch
 ):

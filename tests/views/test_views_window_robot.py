@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pytest
 from window_rig import plan
 
 from app.views.robot.feature import RobotFeature
@@ -9,6 +10,7 @@ from app.views.robot.wizard_pages import ConnectionPage
 from app.views.shell.window import MainWindow
 
 
+@pytest.mark.long("journey")
 def test_another_robot_ends_the_run_and_begins_one_on_it(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
@@ -38,6 +40,7 @@ def test_a_robot_that_was_chosen_is_offered_though_it_is_gone(window, services):
     window.feature(RobotFeature).choose("")
 
 
+@pytest.mark.long("journey")
 def test_choosing_a_robot_again_tries_again(window, patient, services, settle):
     services.refuses = "there is no port"
     window.feature(RobotFeature).choose("/dev/ttyACM0")
@@ -55,6 +58,7 @@ def test_choosing_a_robot_again_tries_again(window, patient, services, settle):
     window.feature(RobotFeature).choose("")
 
 
+@pytest.mark.long("journey")
 def test_a_robot_is_taken_for_once_without_being_remembered(window, patient, services, settle):
     window.feature(RobotFeature).choose("/dev/ttyACM0")
     window.equipment.take("/tmp/robot")
@@ -67,6 +71,7 @@ def test_a_robot_is_taken_for_once_without_being_remembered(window, patient, ser
     assert window.feature(RobotFeature).port == ""
 
 
+@pytest.mark.long("journey")
 def test_a_pen_takes_the_robot_s_place_until_a_robot_is_chosen(window, patient, services, settle):
     window.equipment.take_pen("usb:0")
     window.show_patient(patient)
@@ -78,6 +83,7 @@ def test_a_pen_takes_the_robot_s_place_until_a_robot_is_chosen(window, patient, 
     assert window.feature(RobotFeature).pen == ""
 
 
+@pytest.mark.long("journey")
 def test_holding_can_be_practised_on_the_simulated_robot(window, patient, services, settle):
     window.feature(RobotFeature).set_practise_holding(True)
     window.show_patient(patient)
@@ -89,6 +95,7 @@ def test_holding_can_be_practised_on_the_simulated_robot(window, patient, servic
     assert settle(lambda: len(services.opened) == 2)
 
 
+@pytest.mark.long("journey")
 def test_the_robot_stays_while_an_attempt_runs(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
@@ -102,6 +109,7 @@ def test_the_robot_stays_while_an_attempt_runs(window, patient, services, settle
     assert services.benches == []
 
 
+@pytest.mark.long("journey")
 def test_the_wizard_has_the_robot_for_itself_and_gives_it_back(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
@@ -126,6 +134,7 @@ def test_the_simulated_robot_needs_no_commissioning(window, patient, services):
     assert services.benches == []
 
 
+@pytest.mark.long("journey")
 def test_a_robot_that_does_not_open_is_told_and_the_run_comes_back(
     window, patient, services, settle
 ):
@@ -141,6 +150,7 @@ def test_a_robot_that_does_not_open_is_told_and_the_run_comes_back(
     assert window.feature(RobotFeature).wizard is None
 
 
+@pytest.mark.long("journey")
 def test_the_robots_health_stands_beside_the_panes(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
@@ -153,6 +163,7 @@ def test_the_robots_health_stands_beside_the_panes(window, patient, services, se
     assert settle(lambda: panel.groups == ())
 
 
+@pytest.mark.long("journey")
 def test_the_hand_is_remembered(services, window, destroy):
     box = window.workspace.bullseye.source.box
     box.setCurrentIndex(1)

@@ -157,6 +157,7 @@ def dialog_texts():
     return texts
 
 
+@pytest.mark.long("journey")
 def test_dialogs_of_qt_are_in_the_language_to_the_last_word(spoken):
     other = dialog_texts()
     use_language(QApplication.instance(), "en")

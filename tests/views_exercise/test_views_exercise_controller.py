@@ -297,6 +297,7 @@ def test_the_rate_is_the_counter_over_the_time():
     assert meter.read(1.0, 5) == 0.0
 
 
+@pytest.mark.long("journey")
 def test_the_message_list_keeps_its_last_lines(qt):
     from app.core.events import Event
 

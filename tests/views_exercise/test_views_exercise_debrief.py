@@ -110,6 +110,7 @@ def test_passed_not_passed_void_and_unscored_are_told_apart_in_words():
     assert len({v[0] for v in verdicts}) == 4
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(("above", "word"), [(-2.0, "✔ Passed"), (2.0, "✖ Not passed")])
 def test_a_score_within_the_error_of_the_mark_says_so_on_either_side(above, word):
     points = round(score().total + above, 1)
@@ -563,6 +564,7 @@ def language(qt, request):
     use_language(qt, "en")
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("size", [1.0, theme.LARGE])
 def test_the_card_is_never_wider_than_its_column(qt, language, size):
     theme.apply_theme(qt, theme.DARK, size)

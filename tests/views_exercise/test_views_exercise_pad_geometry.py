@@ -126,6 +126,7 @@ def test_the_scale_follows_its_formula():
     assert np.isclose(scale.offset_of_angle(0.3), 0.1 * tan(0.3))
 
 
+@pytest.mark.long("journey")
 @quiet
 @given(st.tuples(finite, finite, finite), st.floats(0, 1.2))
 def test_the_cone_keeps_directions_inside_and_bounds_the_rest(direction, limit):
