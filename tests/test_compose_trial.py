@@ -457,7 +457,7 @@ def test_skills_and_hands_at_the_window_meet_the_layers_of_the_ct(monkeypatch):
     assert (mouse.skill, careful.skill, mouse.void, mouse.duration) == ("hasty", "careful", 3, 20.0)
 
     class Quick:
-        def __init__(self, exercise, *rest):
+        def __init__(self, exercise, *rest, **named):
             met.append(exercise.layers)
 
         def score(self, skill, seed):

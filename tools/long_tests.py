@@ -30,7 +30,7 @@ HEAD = """# What is tested where
 
 | command | runs | on two cores |
 |---|---|---|
-| `make test` | all but the long tests | twenty minutes; three more where no kernel is compiled |
+| `make test` | all but the long tests | eight minutes; three more where no kernel is compiled |
 | `make test-changed SINCE=main` | of these what changes since a commit can reach | less |
 | `make test-long` | the long ones | forty minutes |
 | `make test-all` | both | an hour |

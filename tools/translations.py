@@ -124,7 +124,7 @@ def _titles(tree: ast.Module) -> Iterator[str]:
 def _of_fields(tree: ast.Module) -> Iterator[str]:
     """Yield titles and helps of fields of models, which forms show."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Shown":
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "FieldText":
             parts = (part.value for part in node.args if isinstance(part, ast.Constant))
             yield from (text for text in parts if isinstance(text, str))
 

@@ -66,7 +66,9 @@ def _register(added: ModuleType, root: typer.Typer) -> None:
         )
         return
     if taken:
-        plugin_folders.refused[path] = f"{path}: `acus {min(taken)}` is there already; rename it"
+        plugin_folders.refused[path] = sentence(
+            "{path}: `acus {command}` is there already; rename it", path=path, command=min(taken)
+        )
         return
     root.registered_commands += apart.registered_commands
     root.registered_groups += apart.registered_groups

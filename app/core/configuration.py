@@ -27,8 +27,8 @@ MOST_PROBLEMS = 12
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
-    """Say how a form shows a field of a model: `Annotated[str, Shown("Host", "its name")]`.
+class FieldText:
+    """Say how a form shows a field of a model: `Annotated[str, FieldText("Host", "its name")]`.
 
     Attributes:
         title: of its row, in English; `tools.translations` collects it.

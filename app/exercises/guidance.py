@@ -18,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 
-from app.core.configuration import Shown, Strict
+from app.core.configuration import FieldText, Strict
 from app.core.messages import sentence, sentence_of
 from app.imaging.errors import ScanOrderError
 from app.imaging.scan_look import BreathPicture, NeedleEnds, ScanLook
@@ -61,20 +61,20 @@ class FadingPart(Strict):
             that tells where the needle is; 0 for none.
     """
 
-    kind: Annotated[FadingKind, Shown("Over the attempts")]
+    kind: Annotated[FadingKind, FieldText("Over the attempts")]
     dials: Annotated[
         tuple[DialShare, ...],
         Field(max_length=MOST_DIALS),
-        Shown("Dials of the 1st, 2nd, … attempt"),
+        FieldText("Dials of the 1st, 2nd, … attempt"),
     ] = ()
-    least: Annotated[DialShare, Shown("Dial never falls below")] = 0.0
-    step: Annotated[float, Field(gt=0.0, le=1.0), Shown("Step of the dial")] = 0.2
-    good: Annotated[Points, Shown("Good from a total of")] = 80.0
-    poor: Annotated[Points, Shown("Poor below a total of")] = 60.0
+    least: Annotated[DialShare, FieldText("Dial never falls below")] = 0.0
+    step: Annotated[float, Field(gt=0.0, le=1.0), FieldText("Step of the dial")] = 0.2
+    good: Annotated[Points, FieldText("Good from a total of")] = 80.0
+    poor: Annotated[Points, FieldText("Poor below a total of")] = 60.0
     probe_every: Annotated[
         int,
         Field(ge=0, le=100),
-        Shown("Every so many attempts a probe without help; 0: none"),
+        FieldText("Every so many attempts a probe without help; 0: none"),
     ] = 0
 
     @model_validator(mode="after")
@@ -220,15 +220,17 @@ class GuidancePart(Strict):
     """
 
     mode: GuidanceMode | None = None
-    slices: Annotated[int, Field(ge=FEWEST, le=MOST), Shown("Slices of a control scan")] = FEWEST
+    slices: Annotated[int, Field(ge=FEWEST, le=MOST), FieldText("Slices of a control scan")] = (
+        FEWEST
+    )
     slice_mm: Annotated[
-        float, Field(ge=THINNEST_MM, le=THICKEST_MM), Shown("Thickness of a slice")
+        float, Field(ge=THINNEST_MM, le=THICKEST_MM), FieldText("Thickness of a slice")
     ] = 5.0
-    streak: Annotated[bool, Shown("Metal leaves a streak in control scans")] = False
+    streak: Annotated[bool, FieldText("Metal leaves a streak in control scans")] = False
     dose_per_slice: Annotated[
         float,
         Field(ge=0.0, le=1e3),
-        Shown("Dose of a slice, a teaching estimate", unit="mGy·cm"),
+        FieldText("Dose of a slice, a teaching estimate", unit="mGy·cm"),
     ] = DOSE_PER_SLICE
     interval_mm: float | None = None
     needle_ends: NeedleEnds = NeedleEnds.PLAIN

@@ -20,7 +20,7 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError
 
-from app.core.configuration import Shown, Strict
+from app.core.configuration import FieldText, Strict
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.imaging.remedies import is_word, words
@@ -283,10 +283,10 @@ class NeedlePart(Strict):
         tip: how it is ground; a bevel calls for the effect `bevel`.
     """
 
-    gauge: Annotated[int, Shown("Needle")] = 18
+    gauge: Annotated[int, FieldText("Needle")] = 18
     length_mm: Annotated[
         Annotated[float, Field(gt=0.0)] | None,
-        Shown("Length of the needle, 0 for the device's own"),
+        FieldText("Length of the needle, 0 for the device's own"),
     ] = None
     tip: TipShape = TipShape.SYMMETRIC
 

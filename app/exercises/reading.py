@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from app.core.configuration import Shown, Strict
+from app.core.configuration import FieldText, Strict
 from app.core.messages import sentence
 from app.imaging.window import MINIMUM_WIDTH, PRESETS, WindowLevel
 
@@ -33,8 +33,10 @@ class WindowPart(Strict):
 class SlabPart(Strict):
     """Thickness of the slices of every pane, and what of it is shown; 0 mm is one slice."""
 
-    kind: Annotated[Literal["mean", "mip", "minip"], Shown("Slab")] = "mean"
-    thickness_mm: Annotated[float, Field(ge=0.0, le=100.0), Shown("Thickness of the slab")] = 0.0
+    kind: Annotated[Literal["mean", "mip", "minip"], FieldText("Slab")] = "mean"
+    thickness_mm: Annotated[float, Field(ge=0.0, le=100.0), FieldText("Thickness of the slab")] = (
+        0.0
+    )
 
 
 class ReadingPart(Strict):
@@ -47,10 +49,10 @@ class ReadingPart(Strict):
         locked: whether what is given here stays as it is.
     """
 
-    window: Annotated[WindowPart | None, Shown("Window of the CT")] = None
+    window: Annotated[WindowPart | None, FieldText("Window of the CT")] = None
     slab: SlabPart | None = None
-    layout: Annotated[LayoutName | None, Shown("Layout of the panes")] = None
-    locked: Annotated[bool, Shown("Window, slab and layout stay as given here")] = False
+    layout: Annotated[LayoutName | None, FieldText("Layout of the panes")] = None
+    locked: Annotated[bool, FieldText("Window, slab and layout stay as given here")] = False
 
     @field_validator("window", mode="before")
     @classmethod

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
-from app.core.configuration import Shown, Strict
+from app.core.configuration import FieldText, Strict
 from app.core.messages import sentence, sentence_of
 from app.exercises.ablation import AblationPart
 from app.exercises.drill import DrillPart
@@ -106,50 +106,50 @@ class Exercise(Strict):
 
     id: Annotated[str, Field(pattern=r"^[a-z0-9]+(-[a-z0-9]+)*$", max_length=64)]
     version: Annotated[int, Field(ge=1)] = 1
-    level: Annotated[int, Field(ge=1, le=9), Shown("Level (1 easiest)")] = 1
-    title: Annotated[str, Field(min_length=1, max_length=120), Shown("Title")]
-    description: Annotated[str, Shown("Briefing")] = ""
+    level: Annotated[int, Field(ge=1, le=9), FieldText("Level (1 easiest)")] = 1
+    title: Annotated[str, Field(min_length=1, max_length=120), FieldText("Title")]
+    description: Annotated[str, FieldText("Briefing")] = ""
     ct: Ct = Ct(phantom=PhantomCt())
     plan: PlanChoice = "phantom_default"
     structures: tuple[StructurePart, ...] = ()
     placement: PlacementPart = PlacementPart()
-    device: Annotated[str, Shown("Robot")] = "icube"
-    joint: Annotated[str, Shown("Ball joint, empty for the robot's own")] = ""
-    rig: Annotated[str, Shown("Cameras")] = "wide"
+    device: Annotated[str, FieldText("Robot")] = "icube"
+    joint: Annotated[str, FieldText("Ball joint, empty for the robot's own")] = ""
+    rig: Annotated[str, FieldText("Cameras")] = "wide"
     assistance: Annotated[
         float,
         Field(ge=-1.0, le=1.0),
-        Shown("Dial at the start: 1 guides, 0 nothing, −1 repels"),
+        FieldText("Dial at the start: 1 guides, 0 nothing, −1 repels"),
     ] = 0.7
     fading: FadingPart | None = None
     laws: Mapping[str, LawPart] = Field(default_factory=lambda: {"fixture": LawPart()})
     effects: Mapping[str, EffectPart] = Field(default_factory=dict)
     without: Mapping[str, str] = Field(default_factory=dict)
     layers: tuple[LayerPart, ...] = ()
-    layers_from: Annotated[LayersFrom, Shown("Where they come from")] = LayersFrom.FILE
+    layers_from: Annotated[LayersFrom, FieldText("Where they come from")] = LayersFrom.FILE
     tissue: TissueSource = TissueSource.LAYERS
     needle: NeedlePart = NeedlePart()
-    target_organ: Annotated[str, Shown("Organ of the target")] = ""
+    target_organ: Annotated[str, FieldText("Organ of the target")] = ""
     tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))
     bands: Mapping[HandName, HandBands] = Field(default_factory=dict)
     rules: ScoreRules = ScoreRules()
-    purpose: Annotated[Purpose, Shown("Purpose")] = Purpose.PRACTICE
+    purpose: Annotated[Purpose, FieldText("Purpose")] = Purpose.PRACTICE
     guidance: GuidancePart = GuidancePart()
     reading: ReadingPart = ReadingPart()
-    views: Annotated[tuple[ViewName, ...], Shown("Views")] = (
+    views: Annotated[tuple[ViewName, ...], FieldText("Views")] = (
         ViewName.LIVE_OVERLAY,
         ViewName.BULLSEYE,
         ViewName.THREE_D,
     )
-    locks: Annotated[tuple[Lock, ...] | None, Shown("Locked for the student")] = None
-    hand: Annotated[HandName | None, Shown("Hand")] = None
-    unsteady_hand: Annotated[Annotated[int, Field(ge=0, le=9)] | None, Shown("Simulated hand")] = (
-        None
-    )
+    locks: Annotated[tuple[Lock, ...] | None, FieldText("Locked for the student")] = None
+    hand: Annotated[HandName | None, FieldText("Hand")] = None
+    unsteady_hand: Annotated[
+        Annotated[int, Field(ge=0, le=9)] | None, FieldText("Simulated hand")
+    ] = None
     touch: TouchPart | None = None
     procedure: ProcedurePart | None = None
     drill: DrillPart | None = None
-    seed: Annotated[int, Field(ge=0), Shown("Seed of everything random")] = 1
+    seed: Annotated[int, Field(ge=0), FieldText("Seed of everything random")] = 1
     _is_probe: bool = PrivateAttr(default=False)
 
     @field_validator("effects", "laws", mode="before")

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import Field, field_validator, model_validator
 
-from app.core.configuration import Shown, Strict
+from app.core.configuration import FieldText, Strict
 from app.core.messages import sentence
 from app.scoring.met import FORBIDDABLE
 from app.scoring.pass_mark import SetMark
@@ -52,16 +52,16 @@ class ScoreRules(Strict):
         mark: how people set the pass mark; none where who wrote the exercise did.
     """
 
-    pass_mark: Annotated[float, Field(ge=0.0, le=100.0), Shown("Total needed to pass")] = 60.0
+    pass_mark: Annotated[float, Field(ge=0.0, le=100.0), FieldText("Total needed to pass")] = 60.0
     minimum_tracking: Annotated[
         float,
         Field(ge=0.0, le=100.0),
-        Shown("Void below this share of the insertion with a measured depth", unit="%"),
+        FieldText("Void below this share of the insertion with a measured depth", unit="%"),
     ] = 70.0
     maximum_pause: Annotated[
         float,
         Field(ge=0.0),
-        Shown("Void beyond this time of waiting for the cameras", unit="s"),
+        FieldText("Void beyond this time of waiting for the cameras", unit="s"),
     ] = 20.0
     forbidden: tuple[str, ...] = ()
     mark: SetMark | None = None

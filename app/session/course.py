@@ -13,7 +13,7 @@ from typing import Annotated, Any, Final
 import yaml
 from pydantic import Field, model_validator
 
-from app.core.configuration import Shown, Strict, load
+from app.core.configuration import FieldText, Strict, load
 from app.core.errors import ConfigurationError, writing
 from app.core.files import write_atomically
 from app.core.messages import sentence
@@ -83,12 +83,12 @@ class Course(Strict):
         competence: when a student is called competent at one of them.
     """
 
-    id: Annotated[str, Field(pattern=NAME, max_length=64), Shown("File name")]
-    title: Annotated[str, Field(min_length=1, max_length=120), Shown("Title")]
-    groups: Annotated[tuple[str, ...], Shown("Groups")] = ()
-    ordered: Annotated[bool, Shown("In order: the next opens when the one before was passed")] = (
-        False
-    )
+    id: Annotated[str, Field(pattern=NAME, max_length=64), FieldText("File name")]
+    title: Annotated[str, Field(min_length=1, max_length=120), FieldText("Title")]
+    groups: Annotated[tuple[str, ...], FieldText("Groups")] = ()
+    ordered: Annotated[
+        bool, FieldText("In order: the next opens when the one before was passed")
+    ] = False
     items: tuple[CourseItem, ...] = ()
     competence: CompetenceRule = RULE
 

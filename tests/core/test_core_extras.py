@@ -100,5 +100,5 @@ def test_outside_a_source_folder_the_packages_of_an_extra_are_named(monkeypatch)
 
 def test_the_versions_of_python_are_those_of_readme():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    assert project["requires-python"] == ">=3.11,<3.14"
-    assert "Python 3.11, 3.12 or 3.13" in (ROOT / "README.md").read_text()
+    assert project["requires-python"] == ">=3.11,<3.15"
+    assert "Python 3.11 to 3.14" in (ROOT / "README.md").read_text()

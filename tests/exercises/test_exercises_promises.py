@@ -100,6 +100,9 @@ PROMISES: Final[dict[str, Callable[[Exercise], bool]]] = {
     r"Whatever fails in it ends the force": lambda e: e.device == "tensegrity",
     r"below zero it pushes": lambda e: "fixture" in e.laws and Lock.ASSISTANCE not in e.locked,
     r"Find an entry": lambda e: isinstance(e.plan, OwnPlan),
+    r"meets no rib and\s+little lung": all_of(
+        lambda e: isinstance(e.plan, OwnPlan), forbids("bone"), judged("planned_lung")
+    ),
     r"stiff\. Correct the angle": judged("angle_error"),
     r"so\s+no axial slice shows it whole": judged("angle_error"),
     r"Touch the numbered targets": judged("targets_touched", required=True),

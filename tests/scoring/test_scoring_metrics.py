@@ -16,7 +16,7 @@ from app.scoring.complications.marks import ComplicationMarks, Demand
 from app.scoring.errors import MetricUnavailableError, UnknownMetricError
 from app.scoring.met import Met
 from app.scoring.paths import raw_length, smooth_length
-from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark
+from app.scoring.procedure import Deposit, ProcedureMarks, SampleMark, TurningMark
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.score import score
@@ -92,6 +92,8 @@ STEPS = ProcedureMarks(
     ),
     ablation=AblationMark(4.0, 6.0, 0.98),
     entry_error_mm=2.0,
+    checked=0.5,
+    turning=TurningMark(out=5.0, turned=9.0),
 )
 
 

@@ -27,12 +27,12 @@ from app.scoring.procedure import ProcedureMarks
 from app.scoring.trajectory import Trajectory
 from app.session import trainer
 from app.session.complication_case import KIND, ComplicationCase, lying_of
-from app.session.complication_marks import marks_of_complications
 from app.session.complications import Complications, attempt_seed
 from app.session.control_scan import ControlScan, scans_of
 from app.session.errors import ProcedureNotPossibleError
 from app.session.lung_watch import LungWatch, lesion_facts
 from app.session.needle_now import NeedleNow
+from app.session.procedure_marks import marks_of_complications
 from app.session.recording import read_recording
 from app.session.scan_reading import ScanReading
 from app.session.scripted_answers import MANNERS, ScriptedAnswers

@@ -290,11 +290,16 @@ def sweep_of(attempts, wanted=None):
 def marked(tab):
     """Return where the marks of each line stand along the axis."""
     lines = [one for one in tab.plot.getPlotItem().items if isinstance(one, pg.PlotDataItem)]
-    return [list(one.getData()[0]) for one in lines if one.opts["symbol"]]
+    return [
+        list(one.getData()[0])
+        for one in lines
+        if one.opts["symbol"] and one.getData()[0] is not None
+    ]
 
 
-def test_a_sweep_is_drawn_along_what_was_varied_and_keeps_what_was_chosen(application):
+def test_a_sweep_is_drawn_along_what_was_varied_and_keeps_what_was_chosen(application, destroy):
     tab = SweepTab()
+    destroy(tab)
     tab.show_sweep(sweep_of(2, wanted=48))
     assert not tab.grown.isHidden()
     assert (tab.grown.value(), tab.grown.maximum()) == (12, 48)
@@ -319,8 +324,9 @@ def test_a_sweep_is_drawn_along_what_was_varied_and_keeps_what_was_chosen(applic
     assert "expert" in tab.series.text()
 
 
-def test_texts_stand_on_the_axis_one_after_another(application):
+def test_texts_stand_on_the_axis_one_after_another(application, destroy):
     tab = SweepTab()
+    destroy(tab)
     tab.show_sweep(sweep_of(2))
     assert tab.over.currentData() == "skill"
     assert marked(tab) == [[0.0, 1.0]]

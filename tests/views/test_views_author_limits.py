@@ -2,8 +2,8 @@
 
 import pytest
 
+from app.core.documents import limits
 from app.exercises.schema import Exercise
-from app.views.kit.document import limits
 
 
 @pytest.mark.parametrize(

@@ -9,27 +9,27 @@ from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QLabel
 
 import app
-from app.core.configuration import Shown, Strict, checked
+from app.core.configuration import FieldText, Strict, checked
 from app.views.kit.form import Form
 
 
 class Inner(Strict):
     """A part of what is edited."""
 
-    wait_s: Annotated[float, Field(ge=0.0, le=9.0), Shown("Wait")] = 2.5
+    wait_s: Annotated[float, Field(ge=0.0, le=9.0), FieldText("Wait")] = 2.5
 
 
 class Model(Strict):
     """What is edited."""
 
-    host: Annotated[str, Field(min_length=1), Shown("Host", "name or address")]
-    port: Annotated[int, Field(ge=1, le=65535), Shown("Port")] = 104
-    share: Annotated[float, Field(gt=0.0, le=50.0), Shown("Share", unit="%")] = 20.0
+    host: Annotated[str, Field(min_length=1), FieldText("Host", "name or address")]
+    port: Annotated[int, Field(ge=1, le=65535), FieldText("Port")] = 104
+    share: Annotated[float, Field(gt=0.0, le=50.0), FieldText("Share", unit="%")] = 20.0
     inner: Inner = Inner()
-    far_mm: Annotated[float | None, Shown("Distance")] = None
-    some: Annotated[tuple[str, ...], Shown("Some of them")] = ()
-    on: Annotated[bool, Shown("Switched on")] = True
-    kind: Annotated[str, Shown("Kind")] = "a"
+    far_mm: Annotated[float | None, FieldText("Distance")] = None
+    some: Annotated[tuple[str, ...], FieldText("Some of them")] = ()
+    on: Annotated[bool, FieldText("Switched on")] = True
+    kind: Annotated[str, FieldText("Kind")] = "a"
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import yaml
 from pydantic import Field, model_validator
 
 from app.core import paths
-from app.core.configuration import Shown, Strict, load
+from app.core.configuration import FieldText, Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.core.messages import sentence
@@ -29,12 +29,14 @@ class TlsSettings(Strict):
         check_name: whether the PACS' certificate must name the host that we connect to.
     """
 
-    authority: Annotated[str, Shown("Authority", "PEM; empty: those that the system trusts")] = ""
-    certificate: Annotated[str, Shown("Own certificate", "PEM; where the archive asks for one")] = (
-        ""
-    )
-    key: Annotated[str, Shown("Own key", "PEM without a password")] = ""
-    check_name: Annotated[bool, Shown("Its certificate must name the host")] = True
+    authority: Annotated[
+        str, FieldText("Authority", "PEM; empty: those that the system trusts")
+    ] = ""
+    certificate: Annotated[
+        str, FieldText("Own certificate", "PEM; where the archive asks for one")
+    ] = ""
+    key: Annotated[str, FieldText("Own key", "PEM without a password")] = ""
+    check_name: Annotated[bool, FieldText("Its certificate must name the host")] = True
 
 
 class WebSettings(Strict):
@@ -49,17 +51,17 @@ class WebSettings(Strict):
     url: Annotated[
         str,
         Field(max_length=500),
-        Shown("Web address", "https://…/dicom-web, before /studies"),
+        FieldText("Web address", "https://…/dicom-web, before /studies"),
     ]
     user: Annotated[
         str,
         Field(max_length=200),
-        Shown("User", "name that the archive gave you; may stay empty"),
+        FieldText("User", "name that the archive gave you; may stay empty"),
     ] = ""
     password: Annotated[
         str,
         Field(max_length=500, repr=False),
-        Shown("Password", "kept in a file that only you can read"),
+        FieldText("Password", "kept in a file that only you can read"),
     ] = ""
 
     @model_validator(mode="after")
@@ -92,25 +94,27 @@ class PacsSettings(Strict):
     name: Annotated[
         str,
         Field(pattern=r"^[A-Za-z0-9_.-]{1,32}$"),
-        Shown("Name", "what it is called here; no blanks"),
+        FieldText("Name", "what it is called here; no blanks"),
     ]
-    host: Annotated[Host, Shown("Host", "name or address of the archive")]
-    port: Annotated[Port, Shown("Port")]
-    title: Annotated[Title, Shown("AE title", "the archive's, at most 16 characters")]
-    own_title: Annotated[Title, Shown("Own AE title", "tell the archive's administrator")] = "ACUS"
+    host: Annotated[Host, FieldText("Host", "name or address of the archive")]
+    port: Annotated[Port, FieldText("Port")]
+    title: Annotated[Title, FieldText("AE title", "the archive's, at most 16 characters")]
+    own_title: Annotated[Title, FieldText("Own AE title", "tell the archive's administrator")] = (
+        "ACUS"
+    )
     own_host: Annotated[
         str,
         Field(max_length=253),
-        Shown("Own address", "empty: the one that leads to the archive"),
+        FieldText("Own address", "empty: the one that leads to the archive"),
     ] = ""
-    own_port: Annotated[Port, Shown("Own port")] = 11112
+    own_port: Annotated[Port, FieldText("Own port")] = 11112
     senders: Annotated[
         tuple[Host, ...],
         Field(max_length=32),
-        Shown("Other senders", "empty: pictures come from the host alone"),
+        FieldText("Other senders", "empty: pictures come from the host alone"),
     ] = ()
-    timeout_s: Annotated[float, Field(gt=0.0, le=600.0), Shown("Longest silence")] = 30.0
-    retrieve: Annotated[Literal["get", "move", "web"], Shown("Retrieve by")] = "get"
+    timeout_s: Annotated[float, Field(gt=0.0, le=600.0), FieldText("Longest silence")] = 30.0
+    retrieve: Annotated[Literal["get", "move", "web"], FieldText("Retrieve by")] = "get"
     tls: TlsSettings | None = None
     web: WebSettings | None = None
 

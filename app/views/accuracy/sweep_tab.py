@@ -80,6 +80,7 @@ class SweepTab(QWidget):
         self.plot.setMenuEnabled(False)
         self.plot.hideButtons()
         self.plot.setMouseEnabled(x=False, y=False)
+        self._lines: list[tuple[pg.PlotDataItem, pg.PlotDataItem]] = []
         self.series = QLabel(self)
         self.series.setTextFormat(Qt.TextFormat.RichText)
         self.series.setWordWrap(True)
@@ -120,14 +121,20 @@ class SweepTab(QWidget):
     def _say(self, sweep: SweepTable) -> None:
         parts = [
             sweep.exercise,
-            tr_n("{n} attempt of scripts, not people", "{n} attempts of scripts, not people",
-                 sweep.attempts),
-        ]  # fmt: skip
+            tr_n(
+                "{n} attempt of scripts, not people",
+                "{n} attempts of scripts, not people",
+                sweep.attempts,
+            ),
+        ]
         if sweep.unjudged:
             parts.append(
-                tr_n("{n} has no score and is in no mean", "{n} have no score and are in no mean",
-                     sweep.unjudged)
-            )  # fmt: skip
+                tr_n(
+                    "{n} has no score and is in no mean",
+                    "{n} have no score and are in no mean",
+                    sweep.unjudged,
+                )
+            )
         if sweep.attempt_s is not None:
             hours = number(_MILLION * sweep.attempt_s / _HOUR, ".3g")
             seconds = number(sweep.attempt_s, ".3g")
@@ -152,39 +159,47 @@ class SweepTab(QWidget):
         apart = self.apart.currentData()
         means = sweep.means(measure, over, "" if apart == over else apart)
         scale = 100.0 if measure == "passed" else 1.0
-        self.plot.clear()
+        for line in self._lines:
+            for part in line:
+                part.setData([], [])
         self.plot.setLabel("bottom", escape(condition_words(over)))
         self.plot.setLabel("left", escape(measure_words(measure)))
         places = _places(means)
         ticks = [(place, str(at)) for at, place in places.items() if isinstance(at, str)]
         self.plot.getAxis("bottom").setTicks([ticks] if ticks else None)
-        legend, symbols = [], list(SYMBOLS)
+        legend = []
         for order, name in enumerate(dict.fromkeys(one.series for one in means)):
             own = [one for one in means if one.series == name]
-            hue, symbol = HUES[order % len(HUES)], symbols[order % len(symbols)]
-            self._line([places[one.at] for one in own], own, scale, hue, symbol)
+            mark = self._line(order, [places[one.at] for one in own], own, scale)
             if name:
-                legend.append(f'<span style="color:{hue}">{SYMBOLS[symbol]}</span> {escape(name)}')
+                legend.append(f"{mark} {escape(name)}")
         self.series.setText(" &nbsp; ".join(legend))
         self.series.setVisible(bool(legend))
         self._fill(means, scale)
 
-    def _line(
-        self, x: list[float], means: Sequence[SweepMean], scale: float, hue: str, symbol: str
-    ) -> None:
-        y = [scale * one.mean for one in means]
+    def _line(self, order: int, x: list[float], means: Sequence[SweepMean], scale: float) -> str:
+        """Draw a line and its intervals in the items of its place; return its legend's mark.
+
+        The items stay as long as the plot: pyqtgraph's are not taken out of a plot and left to be
+        destroyed beside it.
+        """
+        while len(self._lines) <= order:
+            self._lines.append((self.plot.plot([], []), self.plot.plot([], [])))
+        between, marks = self._lines[order]
+        hue, symbol = HUES[order % len(HUES)], list(SYMBOLS)[order % len(SYMBOLS)]
         ends = [scale * end for one in means for end in (one.lower, one.upper)]
         twice = [place for place in x for _ in range(2)]  # a line from end to end, then a gap
-        self.plot.plot(twice, ends, pen=pg.mkPen(hue, width=1.2), connect="pairs")
-        self.plot.plot(
+        between.setData(twice, ends, pen=pg.mkPen(hue, width=1.2), connect="pairs")
+        marks.setData(
             x,
-            y,
+            [scale * one.mean for one in means],
             pen=pg.mkPen(hue, width=1.5),
             symbol=symbol,
             symbolSize=9,
             symbolBrush=hue,
             symbolPen=None,
         )
+        return f'<span style="color:{hue}">{SYMBOLS[symbol]}</span>'
 
     def _fill(self, means: Sequence[SweepMean], scale: float) -> None:
         self.means.setRowCount(len(means))

@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.core import paths
 from app.core.configuration import FieldProblem, checked
+from app.core.documents import Document, Where, put_value, value_at
 from app.core.errors import AcusError
 from app.core.messages import sentence
 from app.exercises.schema import Exercise
@@ -25,7 +26,6 @@ from app.planning.patient import Patient
 from app.scoring import metrics
 from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.scoring.met import FORBIDDEN
-from app.views.kit.document import Document, Where, put_value, value_at
 from app.views.kit.text import tr
 
 DRAWN: Final = "as-drawn-in-the-window.seg.nrrd"

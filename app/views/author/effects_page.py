@@ -1,4 +1,4 @@
-"""Page of the form of an exercise: effects with what they cost, and the layers of tissue."""
+"""FormPage of the form of an exercise: effects with what they cost, and the layers of tissue."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from PySide6.QtWidgets import (
 
 from app.exercises.parts import LayerPart
 from app.views.author.editing import ExerciseEditor
-from app.views.author.page import Page, number_of
+from app.views.author.page import FormPage, number_of
 from app.views.author.parts_box import PartsBox
 from app.views.kit import theme
 from app.views.kit.parts import button, label
 from app.views.kit.text import tr
 
 
-class EffectsPage(Page):
+class EffectsPage(FormPage):
     """Effects with the live plan of what is simulated, why, and at what cost."""
 
     def __init__(self, editor: ExerciseEditor) -> None:

@@ -32,6 +32,7 @@ from PySide6.QtWidgets import (
 
 from app.core.child_process import environment, module_command
 from app.core.configuration import FieldProblem
+from app.core.documents import Where
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
@@ -64,14 +65,20 @@ from app.views.author.editing import (
     plan_document,
 )
 from app.views.author.effects_page import EffectsPage
-from app.views.author.guiding_pages import HelpPage, SightPage
-from app.views.author.page import Page
-from app.views.author.pages import OWN, SCANS, PatientPage, ReviewPage, TaskPage
+from app.views.author.page import FormPage
+from app.views.author.pages import (
+    OWN,
+    SCANS,
+    HelpPage,
+    PatientPage,
+    ReviewPage,
+    SightPage,
+    TaskPage,
+)
 from app.views.author.score_page import ScorePage
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.document import Where
 from app.views.kit.field_words import problem_words
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
@@ -125,7 +132,7 @@ class ExerciseDialog(Wizard):
         self.help, self.sight = HelpPage(editor), SightPage(editor)
         self.effects, self.score = EffectsPage(editor), ScorePage(editor)
         self.review = ReviewPage(editor, self._file, self.name_of)
-        self.forms: tuple[Page, ...] = (
+        self.forms: tuple[FormPage, ...] = (
             self.task,
             self.patient,
             self.help,

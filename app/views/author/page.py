@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from app.core.configuration import FieldProblem
+from app.core.documents import Where
 from app.exercises.schema import Exercise
 from app.views.author.editing import ExerciseEditor
-from app.views.kit.document import Where
 from app.views.kit.form import Form
 
 
-class Page(Form):
+class FormPage(Form):
     """Fields of the exercise, each bound to its place in the document; loaded while it is shown.
 
     Attributes:

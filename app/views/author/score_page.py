@@ -1,4 +1,4 @@
-"""Page of the form of an exercise: what counts, and what scripted skills would score."""
+"""FormPage of the form of an exercise: what counts, and what scripted skills would score."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QTableWidget, QTableWidgetItem, QWidget
 
 from app.scoring import metrics
 from app.views.author.editing import ExerciseEditor, default_tolerance
-from app.views.author.page import Page, number_of, plain
+from app.views.author.page import FormPage, number_of, plain
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, label
 from app.views.kit.text import tr
@@ -90,7 +90,7 @@ class SkillsPlot(QWidget):
         painter.end()
 
 
-class ScorePage(Page):
+class ScorePage(FormPage):
     """What counts: bands, weights, hard fails; and what scripted skills would score.
 
     Signals:

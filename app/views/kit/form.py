@@ -1,7 +1,7 @@
 """The form of the window: a row for each field of a model, by its title, type, range and unit.
 
-A field says itself what it is called and what helps to fill it in (`core.configuration.Shown`), and
-within what it must lie (pydantic's own limits); who adds a row may say it otherwise.
+A field says itself what it is called and what helps to fill it in (`core.configuration.FieldText`),
+and within what it must lie (pydantic's own limits); who adds a row may say it otherwise.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.core.configuration import FieldProblem, Shown
+from app.core.configuration import FieldProblem, FieldText
+from app.core.documents import Document, Range, Where, field_of, limits, put_value, value_at
 from app.views.kit import theme
-from app.views.kit.document import Document, Range, Where, field_of, limits, put_value, value_at
 from app.views.kit.field_words import place_words, problem_words
 from app.views.kit.parts import PlainLabel, column, label
 from app.views.kit.text import declared, literal
@@ -228,9 +228,9 @@ class Form(QWidget):
             return None if self._model is None else field_of(self._model, *where)
         return None
 
-    def _shown(self, where: Where) -> Shown:
+    def _shown(self, where: Where) -> FieldText:
         found = getattr(self._field(where), "metadata", ())
-        return next((one for one in found if isinstance(one, Shown)), Shown())
+        return next((one for one in found if isinstance(one, FieldText)), FieldText())
 
     # --- kinds of fields ------------------------------------------------------------------------
     def text(

@@ -20,12 +20,12 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.configuration import parse
+from app.core.documents import Document, Where
 from app.core.errors import AcusError, ConfigurationError
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.document import Document, Where
 from app.views.kit.form import Form
 from app.views.kit.parts import button, label
 from app.views.kit.progress_strip import ProgressStrip

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.documents import Where
 from app.core.errors import AcusError
 from app.tracking.calibration.board_layout import PAPERS
 from app.tracking.pen.body import load_pen, shipped_pens
@@ -29,7 +30,6 @@ from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LivePreview
 from app.views.cameras.settings_dialog import QUIET_MS
 from app.views.kit import theme
-from app.views.kit.document import Where
 from app.views.kit.form import Form
 from app.views.kit.parts import button, label, message_box, size_dialog
 from app.views.kit.text import tr, translated

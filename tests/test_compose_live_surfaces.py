@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.imaging.coarse_surface import coarse_surface
+from app.compose.live_surfaces import coarse_surface
 
 AFFINE = np.eye(4)
 AFFINE[:3] = [[0.0, 2.0, 0.0, -31.0], [1.5, 0.0, 0.0, 5.0], [0.0, 0.0, -2.5, 9.0]]
