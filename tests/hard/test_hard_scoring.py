@@ -254,6 +254,12 @@ def test_random_attempts_are_bounded(n: int, seed: int, size: float) -> None:
     assert_bounded(result)
 
 
+def reads_steps(name: str) -> bool:
+    """Return whether a metric is of the steps of a procedure, by its file."""
+    text = available()[name].path.read_text(encoding="utf-8")
+    return "trajectory.steps()" in text or "ablation" in text
+
+
 @pytest.mark.long("statistics")
 def test_a_million_samples_are_scored() -> None:
     n = 1_000_000
@@ -265,11 +271,16 @@ def test_a_million_samples_are_scored() -> None:
     not_asked |= {"bone_contacts", "bone_force", "capsule_passes", "gut_touched", "lung_crossed"}
     not_asked |= {"organ_crossed", "pleural_angle", "pleural_crossings", "skin_passes"}
     not_asked |= {"breath_offset"}  # nothing breathes
+    not_asked |= {"hand_dose", "complication_answer", "complication_noticed"}
     not_asked |= OF_OWN_PLANS  # the path was given
     not_asked |= {"vessels_touched"}  # no field tells what this needle met
-    assert {row.name for row in result.rows if row.value is not None} == set(
+    values = {row.name: row.value for row in result.rows}
+    steps = {name for name in available() if reads_steps(name)}
+    assert len(steps) > 10
+    assert all(values.get(name) is None for name in steps)  # no exercise with steps
+    assert {name for name, value in values.items() if value is not None} == set(
         available()
-    ) - not_asked
+    ) - not_asked - steps
 
 
 def test_the_smoothed_length_is_never_longer_than_the_raw_one() -> None:
