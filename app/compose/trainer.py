@@ -216,9 +216,10 @@ class Rig:
                 )
             )
         setup = replace(self.setup, exercise=exercise)
+        # Compiles what waits: before anything is held, so that nothing stands still meanwhile.
+        fresh = loop_table(setup, self.profile, self.robot is None, self.robot)
 
         def change(loop: Loop) -> int:
-            fresh = loop_table(setup, self.profile, self.robot is None, self.robot)
             table, carry = effect_models.exchange(loop.table, fresh, effect)
             return loop.exchange(table, carry)
 
