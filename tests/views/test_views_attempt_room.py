@@ -137,6 +137,18 @@ def test_the_bar_of_a_low_rail_covers_no_word(application, width):
     assert words.height() <= rail.order.height()
 
 
+def test_the_way_back_from_a_scan_is_seen_on_a_low_rail_without_scrolling(application):
+    """Seen: below a procedure's steps it was off the screen, and the live CT lost."""
+    rail = AttemptRail()
+    rail.suit_window(1366)
+    rail.pictures.setText("Live pictures (C)")
+    rail.pictures.show()
+    rail.resize(rail.width(), 330)
+    rail.show()
+    QApplication.processEvents()
+    assert rail.pictures.visibleRegion().boundingRect() == rail.pictures.rect()
+
+
 def test_the_rail_names_a_drill_in_one_line_and_else_has_no_line_for_it(application):
     rail = AttemptRail()
     rail.suit_window(1366)

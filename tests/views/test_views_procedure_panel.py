@@ -112,6 +112,17 @@ def test_each_sample_is_told_by_sign_and_words(panel: ProcedurePanel) -> None:
     assert third == "▲ the throw meets rib"
 
 
+def test_of_a_long_procedure_the_newest_lines_stand_and_all_are_in_the_tip(
+    panel: ProcedurePanel,
+) -> None:
+    samples = tuple(SampleMark(float(n), float(n), n > 3) for n in range(1, 6))
+    panel.show_procedure(state(ToolInHand.OPEN, samples=samples), True, True)
+    shown = panel.results.text().splitlines()
+    assert len(shown) == 3
+    assert shown[-1].startswith("✔ Sample 5")
+    assert "Sample 1: 1.0 mm" in panel.results.toolTip()
+
+
 TOOLS = [tool for tool in ToolInHand if tool is not ToolInHand.ELECTRODE]
 """Of a biopsy; an electrode's words are tried with the ablation."""
 

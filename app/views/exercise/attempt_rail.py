@@ -335,10 +335,12 @@ class AttemptRail(QWidget):
         column = QVBoxLayout(inner)
         column.setContentsMargins(GRID, GRID, GRID, GRID)
         column.setSpacing(GRID)
-        for widget in (self.drill, self.stage, self.order, self.figures, self.force, self.breath):
+        for widget in (self.drill, self.stage, self.order):
+            column.addWidget(widget)
+        column.addWidget(self.pictures)  # the way back from a scan is seen without scrolling
+        for widget in (self.figures, self.force, self.breath):
             column.addWidget(widget)
         column.addLayout(self._place)
-        column.addWidget(self.pictures)
         column.addStretch(1)
         self._health.setWordWrap(True)
         column.addWidget(self._health)

@@ -115,8 +115,7 @@ class ProcedurePanel(StepPanel):
         self._offer_other(beside)  # in the gun's place, which nobody holds then
         self.fire.setVisible(beside is None and state.part.biopsy is not None)
         self._enable(possible, bool(order))
-        self.results.setText("\n".join((*self._warnings(state), *_results(state))))
-        self.results.setVisible(bool(self.results.text()))
+        self._show_results(self._warnings(state), _results(state))
 
     def _show_again(self) -> None:
         state, commands, inside = self._shown

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final
 
 from PySide6.QtCore import Qt, Signal
@@ -53,6 +54,9 @@ class KeyedPanel(QWidget):
 
 OTHER_KEY: Final = "Alt+J"
 
+_NEWEST: Final = 3
+"""Lines of what was done that are shown."""
+
 
 class StepPanel(KeyedPanel):
     """Offers the step that follows (J), and beside it another that may follow as well (Alt+J).
@@ -81,6 +85,15 @@ class StepPanel(KeyedPanel):
 
     def _ask(self, step: Step | None) -> None:
         raise NotImplementedError
+
+    def _show_results(self, warnings: Sequence[str], done: Sequence[str]) -> None:
+        """Show what is warned of and what was done last; the tip has all of it.
+
+        All lines of a long procedure would push the attempt's own buttons off a small screen.
+        """
+        self.results.setText("\n".join((*warnings, *done[-_NEWEST:])))
+        self.results.setToolTip(literal("\n".join((*warnings, *done))))
+        self.results.setVisible(bool(self.results.text()))
 
     def _offer_other(self, step: Step | None) -> None:
         """Show another step beside the next one; None for none."""
