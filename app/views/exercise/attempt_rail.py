@@ -335,10 +335,9 @@ class AttemptRail(QWidget):
         column = QVBoxLayout(inner)
         column.setContentsMargins(GRID, GRID, GRID, GRID)
         column.setSpacing(GRID)
-        for widget in (self.drill, self.stage, self.order):
-            column.addWidget(widget)
-        column.addWidget(self.pictures)  # the way back from a scan is seen without scrolling
-        for widget in (self.figures, self.force, self.breath):
+        # The way back from a scan stands where it is seen without scrolling.
+        top = (self.drill, self.stage, self.order, self.pictures)
+        for widget in (*top, self.figures, self.force, self.breath):
             column.addWidget(widget)
         column.addLayout(self._place)
         column.addStretch(1)
