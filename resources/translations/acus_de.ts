@@ -18232,10 +18232,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">rückgängig, wiederholen</translation>
         </message>
         <message>
-            <source>another step in its place</source>
-            <translation type="unfinished">ein anderer Schritt an seiner Stelle</translation>
-        </message>
-        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">Plan speichern, speichern als</translation>
         </message>

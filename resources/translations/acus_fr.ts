@@ -18232,10 +18232,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">annuler, rétablir</translation>
         </message>
         <message>
-            <source>another step in its place</source>
-            <translation type="unfinished">une autre étape à sa place</translation>
-        </message>
-        <message>
             <source>save plan, save as</source>
             <translation type="unfinished">enregistrer le plan, enregistrer sous</translation>
         </message>

@@ -45,7 +45,6 @@ from app.views.exercise.hands.source import (
 )
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.steps import step_words
-from app.views.kit import theme
 from app.views.kit.theme import apply_theme
 from tests.careless.texts import cut_texts
 
@@ -684,23 +683,3 @@ def test_no_choice_is_cut_beside_views_on_a_small_screen(qt, hub):
     QApplication.processEvents()
     assert not choices._title.isHidden()
     assert cut_texts(window) == []
-
-
-@pytest.mark.parametrize("width", [320, 400, 520])
-def test_no_choice_is_cut_in_large_text(qt, width):
-    """Seen: "mouse, ke" and "moves the" on a projector."""
-    application = QApplication.instance()
-    apply_theme(application, theme.DARK, theme.LARGE)
-    window = QWidget()
-    choices = chooser.HandChooser(PadCanvas(window), window)
-    choices.set_interactive(True)
-    choices.setGeometry(0, 0, width, 320)
-    window.resize(width + 20, 340)
-    window.show()
-    QApplication.processEvents()
-    choices.suit_text()
-    QApplication.processEvents()
-    for box in choices._boxes:
-        assert box.width() >= box.sizeHint().width(), box.currentText()
-    window.close()
-    apply_theme(application)
