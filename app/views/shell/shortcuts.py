@@ -87,7 +87,10 @@ def groups(
                     "; ".join((tr("briefing; an expert shows it"), *watched.values())),
                 ),
                 ("S", tr("control scan")),
-                ("(Shift+, Alt+) J, Ctrl+J", tr("next step, fire the gun (something is wrong, do it)")),
+                (
+                    "(Shift+, Alt+) J, Ctrl+J",
+                    tr("next step, fire the gun (something is wrong, do it)"),
+                ),
                 (tr("Enter"), tr("end the attempt")),
                 ("Ctrl+B, Ctrl+T", tr("in an attempt: all panels; live pictures or the scan")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
