@@ -1,80 +1,58 @@
-"""Coarse surfaces, against closed forms: volume, Euler number, and how far off they lie."""
+"""Surfaces for other programs, against closed forms: volume, place, and that they are closed."""
+
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from app.compose.live_surfaces import coarse_surface
+from app.compose.live_surfaces import STRUCTURE_TRIANGLES, live_surfaces
+from app.session.risks import Risk
 
-AFFINE = np.eye(4)
-AFFINE[:3] = [[0.0, 2.0, 0.0, -31.0], [1.5, 0.0, 0.0, 5.0], [0.0, 0.0, -2.5, 9.0]]
-"""Axes that change places, one of them against LPS: determinant above 0."""
-
-MIRRORED = AFFINE @ np.diag([1.0, 1.0, -1.0, 1.0])
+RADIUS_MM = 20.0
+CENTRE_MM = np.array([-31.0, 5.0, 209.0])
 
 
-def grid(affine, size=(44, 40, 36)):
-    """Places [mm] of a grid of size (I, J, K), shape (K, J, I, 3)."""
-    k, j, i = np.meshgrid(*(range(n) for n in size[::-1]), indexing="ij")
-    return np.stack([i, j, k], axis=-1) @ affine[:3, :3].T + affine[:3, 3]
+def ball(half_mm, step_mm=1.5):
+    """Distances to a ball on a grid that reaches so far to every side of its centre."""
+    start = CENTRE_MM - half_mm
+    count = int(2 * half_mm / step_mm) + 1
+    k, j, i = np.meshgrid(*(range(count),) * 3, indexing="ij")
+    places = start + step_mm * np.stack([i, j, k], axis=-1)
+    off = np.linalg.norm(places - CENTRE_MM, axis=-1) - RADIUS_MM
+    field = SimpleNamespace(values=off.astype(np.float32), start_mm=start, step_mm=step_mm)
+    return Risk("kidney", 5.0, field)
 
 
-def middle(places):
-    return places.reshape(-1, 3).mean(axis=0)
-
-
-def volume(surface):
-    """Volume inside [mm³], by the divergence theorem; below 0 where the inside lies outside."""
-    a, b, c = np.moveaxis(surface.points_mm[surface.triangles], 1, 0)
+def volume_mm3(surface):
+    """Volume inside, by the divergence theorem; below 0 where the inside lies outside."""
+    a, b, c = np.moveaxis(1e3 * surface.points[surface.triangles], 1, 0)
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
 
-def euler(surface):
-    """Euler number; fails where an edge does not join two triangles, once in each direction."""
+def is_closed(surface):
     t = surface.triangles
     edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]])
     there = {tuple(edge) for edge in edges.tolist()}
-    assert len(there) == len(edges)
-    assert there == {(b, a) for a, b in there}
-    return len(surface.points_mm) - len(edges) // 2 + len(t)
+    return there == {(b, a) for a, b in there}
 
 
-@pytest.mark.parametrize("affine", [AFFINE, MIRRORED])
-def test_a_ball_is_closed_seen_from_outside_and_of_its_volume(affine):
-    places = grid(affine)
-    centre = middle(places)
-    off = np.linalg.norm(places - centre, axis=-1)
-    surface = coarse_surface(-off, affine, -25.0, most=100_000)
-    assert euler(surface) == 2
-    assert volume(surface) == pytest.approx(4.0 / 3.0 * np.pi * 25.0**3, rel=0.01)
-    radii = np.linalg.norm(surface.points_mm - centre, axis=1)
-    assert radii == pytest.approx(25.0, abs=0.2)
-
-
-def test_a_ring_keeps_its_hole():
-    places = grid(AFFINE)
-    x, y, z = np.moveaxis(places - middle(places), -1, 0)
-    off = np.hypot(np.hypot(x, y) - 18.0, z)
-    surface = coarse_surface(-off, AFFINE, -7.0, most=100_000)
-    assert euler(surface) == 0
-    assert volume(surface) == pytest.approx(2.0 * np.pi**2 * 18.0 * 7.0**2, rel=0.06)
-
-
-def test_fewer_triangles_are_of_the_same_ball():
-    places = grid(AFFINE)
-    off = np.linalg.norm(places - middle(places), axis=-1)
-    surface = coarse_surface(-off, AFFINE, -25.0, most=900)
-    assert 200 < len(surface.triangles) <= 900
-    assert euler(surface) == 2
-    assert volume(surface) == pytest.approx(4.0 / 3.0 * np.pi * 25.0**3, rel=0.08)
+def test_a_structure_is_closed_seen_from_outside_in_its_place_and_of_its_volume():
+    (surface,) = live_surfaces(None, [ball(30.0)])
+    assert (surface.name, surface.skin) == ("kidney", False)
+    assert 200 < len(surface.triangles) <= STRUCTURE_TRIANGLES
+    assert is_closed(surface)
+    assert volume_mm3(surface) == pytest.approx(4.0 / 3.0 * np.pi * RADIUS_MM**3, rel=0.03)
+    radii = np.linalg.norm(1e3 * surface.points - CENTRE_MM, axis=1)
+    assert radii == pytest.approx(RADIUS_MM, abs=0.6)
 
 
 def test_what_reaches_the_edge_of_the_grid_is_closed_there():
-    surface = coarse_surface(np.ones((6, 5, 4)), np.eye(4), 0.5)
-    assert euler(surface) == 2
-    assert volume(surface) == pytest.approx(4.0 * 5.0 * 6.0, rel=0.35)
-    assert surface.points_mm.min() >= -1.0
+    (surface,) = live_surfaces(None, [ball(12.0)])
+    assert is_closed(surface)
+    assert volume_mm3(surface) == pytest.approx(24.0**3, rel=0.3)
 
 
 def test_nothing_has_no_surface():
-    surface = coarse_surface(np.zeros((4, 4, 4)), np.eye(4), 0.5)
-    assert (surface.points_mm.shape, surface.triangles.shape) == ((0, 3), (0, 3))
+    risk = ball(30.0)
+    risk.field.values[:] = 9.0
+    assert live_surfaces(None, [risk]) == ()
