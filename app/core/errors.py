@@ -1,4 +1,4 @@
-"""The root of every error that Acus raises on purpose, and the one words of a file's own."""
+"""The root of every error that Acus raises on purpose, and what is said of files that fail."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -158,7 +158,9 @@ def read_sweep(path: Path) -> SweepTable:
     except (OSError, ValueError, TypeError, pa.ArrowException) as error:
         raise ResearchError(
             sentence(
-                "{path} cannot be read as a table of a sweep: {reason}", path=path, reason=error
+                "{path} is no table of a sweep, or is damaged: choose what "
+                "`acus cohort sweep --out` wrote, or is writing",
+                path=path,
             )
         ) from error
     if lacking:

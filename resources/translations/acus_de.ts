@@ -1549,7 +1549,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
-            <translation>Gerät {name} ist von der Art {kind}, deren Schleifen und Seile kein URDF fassen kann; verwenden Sie `acus urdf mjcf`</translation>
+            <translation type="unfinished">Gerät {name} ist von der Art {kind}, deren Schleifen und Seile kein URDF fassen kann; verwenden Sie `acus urdf mjcf`</translation>
         </message>
         <message>
             <source>--origin {origin!r}; valid names: {names}</source>
@@ -2949,23 +2949,23 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>tube_current names a current twice</source>
-            <translation>tube_current nennt einen Strom zweimal</translation>
+            <translation type="unfinished">tube_current nennt einen Strom zweimal</translation>
         </message>
         <message>
             <source>a tube current of {current} mA: the exercise offers {currents} mA</source>
-            <translation>ein Röhrenstrom von {current} mA: die Übung bietet {currents} mA</translation>
+            <translation type="unfinished">ein Röhrenstrom von {current} mA: die Übung bietet {currents} mA</translation>
         </message>
         <message>
             <source>a tube current of {current:g} mA: the exercise leaves no choice of it</source>
-            <translation>ein Röhrenstrom von {current:g} mA: die Übung lässt keine Wahl</translation>
+            <translation type="unfinished">ein Röhrenstrom von {current:g} mA: die Übung lässt keine Wahl</translation>
         </message>
         <message>
             <source>the exercise has no time for leaving the room</source>
-            <translation>die Übung hat keine Zeit, um den Raum zu verlassen</translation>
+            <translation type="unfinished">die Übung hat keine Zeit, um den Raum zu verlassen</translation>
         </message>
         <message>
             <source>a gantry tilted by {tilt_deg:g}°: the exercise keeps it straight</source>
-            <translation>eine um {tilt_deg:g}° gekippte Gantry: die Übung lässt sie gerade</translation>
+            <translation type="unfinished">eine um {tilt_deg:g}° gekippte Gantry: die Übung lässt sie gerade</translation>
         </message>
         <message>
             <source>no exercise {name_or_path!r}; there are {known_ids}, or give the path of a .yaml file</source>
@@ -3089,23 +3089,23 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>tolerances: {metric} is of a step that the exercise does not ask for: add {part} to procedure, or leave it out</source>
-            <translation>tolerances: {metric} gehört zu einem Schritt, den die Übung nicht verlangt: ergänzen Sie {part} unter procedure, oder lassen Sie es weg</translation>
+            <translation type="unfinished">tolerances: {metric} gehört zu einem Schritt, den die Übung nicht verlangt: ergänzen Sie {part} unter procedure, oder lassen Sie es weg</translation>
         </message>
         <message>
             <source>procedure: what a step meets is looked up in the patient: use tissue: field</source>
-            <translation>procedure: was ein Schritt trifft, wird im Patienten nachgesehen: verwenden Sie tissue: field</translation>
+            <translation type="unfinished">procedure: was ein Schritt trifft, wird im Patienten nachgesehen: verwenden Sie tissue: field</translation>
         </message>
         <message>
             <source>procedure: electrodes lie about a path that the file names: give plan entry_mm and target_mm</source>
-            <translation>procedure: Elektroden liegen um einen Pfad, den die Datei nennt: plan mit entry_mm und target_mm angeben</translation>
+            <translation type="unfinished">procedure: Elektroden liegen um einen Pfad, den die Datei nennt: plan mit entry_mm und target_mm angeben</translation>
         </message>
         <message>
             <source>procedure: a tool that touches targets takes no steps</source>
-            <translation>procedure: ein Werkzeug, das Ziele berührt, kennt keine Schritte</translation>
+            <translation type="unfinished">procedure: ein Werkzeug, das Ziele berührt, kennt keine Schritte</translation>
         </message>
         <message>
             <source>procedure: complications are seen in control scans, and live pictures are of the patient before: use guidance.mode: control_ct</source>
-            <translation>procedure: Komplikationen sieht man in Kontrollscans, und Live-Bilder zeigen den Patienten vorher: guidance.mode: control_ct verwenden</translation>
+            <translation type="unfinished">procedure: Komplikationen sieht man in Kontrollscans, und Live-Bilder zeigen den Patienten vorher: guidance.mode: control_ct verwenden</translation>
         </message>
         <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
@@ -3881,7 +3881,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>retrieve is web: say where by web: {{url: https://…}}, or use get</source>
-            <translation>retrieve ist web: geben Sie mit web: {{url: https://…}} an, wo, oder nehmen Sie get</translation>
+            <translation type="unfinished">retrieve ist web: geben Sie mit web: {{url: https://…}} an, wo, oder nehmen Sie get</translation>
         </message>
         <message>
             <source>no PACS is configured; acus pacs add NAME --host HOST --port PORT --title AE writes {pacs_path}</source>
@@ -4301,15 +4301,15 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>the gantry's height {pivot_mm} is not a number</source>
-            <translation>die Höhe der Gantry {pivot_mm} ist keine Zahl</translation>
+            <translation type="unfinished">die Höhe der Gantry {pivot_mm} ist keine Zahl</translation>
         </message>
         <message>
             <source>slices of {slice_mm:g} mm every {interval_mm:g} mm leave a gap of {gap:g} mm: 0 mm is the least, and {widest:g} mm the farthest from slice to slice</source>
-            <translation>Schichten von {slice_mm:g} mm alle {interval_mm:g} mm lassen eine Lücke von {gap:g} mm: 0 mm ist das Kleinste, und {widest:g} mm das Weiteste von Schicht zu Schicht</translation>
+            <translation type="unfinished">Schichten von {slice_mm:g} mm alle {interval_mm:g} mm lassen eine Lücke von {gap:g} mm: 0 mm ist das Kleinste, und {widest:g} mm das Weiteste von Schicht zu Schicht</translation>
         </message>
         <message>
             <source>a gantry tilted by {tilt_deg:g}°: -{most:g}° to {most:g}° are valid</source>
-            <translation>eine um {tilt_deg:g}° gekippte Gantry: gültig sind -{most:g}° bis {most:g}°</translation>
+            <translation type="unfinished">eine um {tilt_deg:g}° gekippte Gantry: gültig sind -{most:g}° bis {most:g}°</translation>
         </message>
         <message>
             <source>the needle's hub and tip are both at {tip_mm}</source>
@@ -4321,7 +4321,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>a bore of radius {inner} mm does not fit a needle of radius {radius_mm} mm</source>
-            <translation>eine Bohrung mit Radius {inner} mm passt nicht in eine Nadel mit Radius {radius_mm} mm</translation>
+            <translation type="unfinished">eine Bohrung mit Radius {inner} mm passt nicht in eine Nadel mit Radius {radius_mm} mm</translation>
         </message>
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
@@ -5677,7 +5677,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>the attempt never got that far</source>
-            <translation>so weit kam der Versuch nie</translation>
+            <translation type="unfinished">so weit kam der Versuch nie</translation>
         </message>
         <message>
             <source>the depth of the tip was not measured in the body</source>
@@ -5829,7 +5829,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>a dose of the hand of {dose} µSv: it must be a number, not negative</source>
-            <translation>eine Handdosis von {dose} µSv: es muss eine Zahl sein, nicht negativ</translation>
+            <translation type="unfinished">eine Handdosis von {dose} µSv: es muss eine Zahl sein, nicht negativ</translation>
         </message>
         <message>
             <source>no metric {name!r}; there are {metrics}</source>
@@ -5913,11 +5913,11 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>the exercise asks for no steps of a procedure</source>
-            <translation>die Übung verlangt keine Schritte eines Eingriffs</translation>
+            <translation type="unfinished">die Übung verlangt keine Schritte eines Eingriffs</translation>
         </message>
         <message>
             <source>no complication can happen in this exercise</source>
-            <translation>in dieser Übung kann keine Komplikation eintreten</translation>
+            <translation type="unfinished">in dieser Übung kann keine Komplikation eintreten</translation>
         </message>
         <message>
             <source>nothing was to be touched</source>
@@ -6381,39 +6381,39 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>{told}; {chosen}</source>
-            <translation>{told}; {chosen}</translation>
+            <translation type="unfinished">{told}; {chosen}</translation>
         </message>
         <message>
             <source>every {mm:g} mm</source>
-            <translation>alle {mm:g} mm</translation>
+            <translation type="unfinished">alle {mm:g} mm</translation>
         </message>
         <message>
             <source>gantry tilted by {deg:g}°</source>
-            <translation>Gantry um {deg:g}° gekippt</translation>
+            <translation type="unfinished">Gantry um {deg:g}° gekippt</translation>
         </message>
         <message>
             <source>{ma:g} mA</source>
-            <translation>{ma:g} mA</translation>
+            <translation type="unfinished">{ma:g} mA</translation>
         </message>
         <message>
             <source>stylet out</source>
-            <translation>Mandrin draußen</translation>
+            <translation type="unfinished">Mandrin draußen</translation>
         </message>
         <message>
             <source>out of the room</source>
-            <translation>außerhalb des Raums</translation>
+            <translation type="unfinished">außerhalb des Raums</translation>
         </message>
         <message>
             <source>hand {usv:.1f} µSv (teaching estimate)</source>
-            <translation>Hand {usv:.1f} µSv (Schätzwert für die Lehre)</translation>
+            <translation type="unfinished">Hand {usv:.1f} µSv (Schätzwert für die Lehre)</translation>
         </message>
         <message>
             <source>shows the shaft, the tip lies in the gap between two slices</source>
-            <translation>zeigt den Schaft, die Spitze liegt in der Lücke zwischen zwei Schichten</translation>
+            <translation type="unfinished">zeigt den Schaft, die Spitze liegt in der Lücke zwischen zwei Schichten</translation>
         </message>
         <message>
             <source>you are out of the room for a control scan: back in {left:.0f} s</source>
-            <translation>Sie sind für eine Kontrollaufnahme außerhalb des Raums: zurück in {left:.0f} s</translation>
+            <translation type="unfinished">Sie sind für eine Kontrollaufnahme außerhalb des Raums: zurück in {left:.0f} s</translation>
         </message>
         <message>
             <source>no control scan: the needle's depth is not measured now, so that a picture would be a guess; nothing was counted. Let both cameras see the marker and press again</source>
@@ -6981,7 +6981,7 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>no step of a procedure is possible now: begin an attempt at an exercise that asks for it</source>
-            <translation>jetzt ist kein Schritt eines Eingriffs möglich: beginnen Sie einen Versuch einer Übung, die ihn verlangt</translation>
+            <translation type="unfinished">jetzt ist kein Schritt eines Eingriffs möglich: beginnen Sie einen Versuch einer Übung, die ihn verlangt</translation>
         </message>
         <message>
             <source>no attempt has begun</source>
@@ -7165,15 +7165,15 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
         </message>
         <message>
             <source>the student leaves the room</source>
-            <translation>der Übende verlässt den Raum</translation>
+            <translation type="unfinished">der Übende verlässt den Raum</translation>
         </message>
         <message>
             <source>the student is back at the patient</source>
-            <translation>der Übende ist wieder beim Patienten</translation>
+            <translation type="unfinished">der Übende ist wieder beim Patienten</translation>
         </message>
         <message>
             <source>no complication can be answered now: begin an attempt at an exercise in which some can happen</source>
-            <translation>jetzt kann auf keine Komplikation reagiert werden: einen Versuch an einer Übung beginnen, in der eine eintreten kann</translation>
+            <translation type="unfinished">jetzt kann auf keine Komplikation reagiert werden: einen Versuch an einer Übung beginnen, in der eine eintreten kann</translation>
         </message>
         <message>
             <source>nobody can take the needle over while {running_attempt_state}: no attempt is running</source>
@@ -10136,79 +10136,79 @@ Anteil</translation>
         </message>
         <message>
             <source>{label}: {figure}</source>
-            <translation>{label}: {figure}</translation>
+            <translation type="unfinished">{label}: {figure}</translation>
         </message>
         <message>
             <source>Pleura crossed</source>
-            <translation>Pleura durchstochen</translation>
+            <translation type="unfinished">Pleura durchstochen</translation>
         </message>
         <message>
             <source>Fissures crossed</source>
-            <translation>Fissuren durchstochen</translation>
+            <translation type="unfinished">Fissuren durchstochen</translation>
         </message>
         <message>
             <source>Aerated lung</source>
-            <translation>Belüftete Lunge</translation>
+            <translation type="unfinished">Belüftete Lunge</translation>
         </message>
         <message>
             <source>Of it emphysema</source>
-            <translation>Davon Emphysem</translation>
+            <translation type="unfinished">Davon Emphysem</translation>
         </message>
         <message>
             <source>Rib below, upper border</source>
-            <translation>Rippe darunter, Oberrand</translation>
+            <translation type="unfinished">Rippe darunter, Oberrand</translation>
         </message>
         <message>
             <source>Rib above, lower border</source>
-            <translation>Rippe darüber, Unterrand</translation>
+            <translation type="unfinished">Rippe darüber, Unterrand</translation>
         </message>
         <message>
             <source>Intercostal vessels</source>
-            <translation>Interkostalgefäße</translation>
+            <translation type="unfinished">Interkostalgefäße</translation>
         </message>
         <message>
             <source>Mid-line of the spine</source>
-            <translation>Mittellinie der Wirbelsäule</translation>
+            <translation type="unfinished">Mittellinie der Wirbelsäule</translation>
         </message>
         <message>
             <source>Rib protects the artery</source>
-            <translation>Rippe schützt die Arterie</translation>
+            <translation type="unfinished">Rippe schützt die Arterie</translation>
         </message>
         <message>
             <source>Vessels from 3 mm</source>
-            <translation>Gefäße ab 3 mm</translation>
+            <translation type="unfinished">Gefäße ab 3 mm</translation>
         </message>
         <message>
             <source>Bronchi from 3 mm</source>
-            <translation>Bronchien ab 3 mm</translation>
+            <translation type="unfinished">Bronchien ab 3 mm</translation>
         </message>
         <message>
             <source>not known</source>
-            <translation>nicht bekannt</translation>
+            <translation type="unfinished">nicht bekannt</translation>
         </message>
         <message>
             <source>{angle:.0f}° at {depth:.0f} mm</source>
-            <translation>{angle:.0f}° bei {depth:.0f} mm</translation>
+            <translation type="unfinished">{angle:.0f}° bei {depth:.0f} mm</translation>
         </message>
         <message>
             <source>at {depth:.0f} mm</source>
-            <translation>bei {depth:.0f} mm</translation>
+            <translation type="unfinished">bei {depth:.0f} mm</translation>
         </message>
         <message>
             <source>{count} ({places})</source>
-            <translation>{count} ({places})</translation>
+            <translation type="unfinished">{count} ({places})</translation>
         </message>
         <message>
             <source>{mm:.0f} mm</source>
-            <translation>{mm:.0f} mm</translation>
+            <translation type="unfinished">{mm:.0f} mm</translation>
         </message>
         <message>
             <source>{mm:.0f} mm or more</source>
-            <translation>{mm:.0f} mm oder mehr</translation>
+            <translation type="unfinished">{mm:.0f} mm oder mehr</translation>
         </message>
         <message>
             <source>met</source>
-            <translation>getroffen</translation>
+            <translation type="unfinished">getroffen</translation>
         </message>
         <message>
             <source>yes</source>
@@ -10216,15 +10216,15 @@ Anteil</translation>
         </message>
         <message>
             <source>no: within {mm:.0f} cm of the spine</source>
-            <translation>nein: näher als {mm:.0f} cm an der Wirbelsäule</translation>
+            <translation type="unfinished">nein: näher als {mm:.0f} cm an der Wirbelsäule</translation>
         </message>
         <message>
             <source>{name} of {wide:.1f} mm met at {depth:.0f} mm</source>
-            <translation>{name} von {wide:.1f} mm getroffen bei {depth:.0f} mm</translation>
+            <translation type="unfinished">{name} von {wide:.1f} mm getroffen bei {depth:.0f} mm</translation>
         </message>
         <message>
             <source>{name} of {wide:.1f} mm, {away:.1f} mm off at {depth:.0f} mm</source>
-            <translation>{name} von {wide:.1f} mm, {away:.1f} mm entfernt bei {depth:.0f} mm</translation>
+            <translation type="unfinished">{name} von {wide:.1f} mm, {away:.1f} mm entfernt bei {depth:.0f} mm</translation>
         </message>
         <message>
             <source>everything</source>
@@ -10440,39 +10440,39 @@ Anteil</translation>
         </message>
         <message>
             <source>it helps, but something else is called for</source>
-            <translation>es hilft, aber etwas anderes ist angezeigt</translation>
+            <translation type="unfinished">es hilft, aber etwas anderes ist angezeigt</translation>
         </message>
         <message>
             <source>wrong</source>
-            <translation>falsch</translation>
+            <translation type="unfinished">falsch</translation>
         </message>
         <message>
             <source>there is no complication</source>
-            <translation>es gibt keine Komplikation</translation>
+            <translation type="unfinished">es gibt keine Komplikation</translation>
         </message>
         <message>
             <source>a pneumothorax begins</source>
-            <translation>ein Pneumothorax beginnt</translation>
+            <translation type="unfinished">ein Pneumothorax beginnt</translation>
         </message>
         <message>
             <source>the lung bleeds</source>
-            <translation>die Lunge blutet</translation>
+            <translation type="unfinished">die Lunge blutet</translation>
         </message>
         <message>
             <source>you say that something is wrong</source>
-            <translation>Sie sagen, dass etwas nicht stimmt</translation>
+            <translation type="unfinished">Sie sagen, dass etwas nicht stimmt</translation>
         </message>
         <message>
             <source>{answer}: {verdict}</source>
-            <translation>{answer}: {verdict}</translation>
+            <translation type="unfinished">{answer}: {verdict}</translation>
         </message>
         <message>
             <source>{answer} ({row})</source>
-            <translation>{answer} ({row})</translation>
+            <translation type="unfinished">{answer} ({row})</translation>
         </message>
         <message>
             <source>odds of a pneumothorax</source>
-            <translation>Odds eines Pneumothorax</translation>
+            <translation type="unfinished">Odds eines Pneumothorax</translation>
         </message>
         <message>
             <source>Latency of the {name} camera</source>
@@ -11694,35 +11694,35 @@ Anteil</translation>
         </message>
         <message>
             <source>right upper lobe</source>
-            <translation>rechter Oberlappen</translation>
+            <translation type="unfinished">rechter Oberlappen</translation>
         </message>
         <message>
             <source>right middle lobe</source>
-            <translation>rechter Mittellappen</translation>
+            <translation type="unfinished">rechter Mittellappen</translation>
         </message>
         <message>
             <source>right lower lobe</source>
-            <translation>rechter Unterlappen</translation>
+            <translation type="unfinished">rechter Unterlappen</translation>
         </message>
         <message>
             <source>left upper lobe</source>
-            <translation>linker Oberlappen</translation>
+            <translation type="unfinished">linker Oberlappen</translation>
         </message>
         <message>
             <source>left lower lobe</source>
-            <translation>linker Unterlappen</translation>
+            <translation type="unfinished">linker Unterlappen</translation>
         </message>
         <message>
             <source>emphysema</source>
-            <translation>Emphysem</translation>
+            <translation type="unfinished">Emphysem</translation>
         </message>
         <message>
             <source>intercostal artery</source>
-            <translation>Interkostalarterie</translation>
+            <translation type="unfinished">Interkostalarterie</translation>
         </message>
         <message>
             <source>intercostal vein</source>
-            <translation>Interkostalvene</translation>
+            <translation type="unfinished">Interkostalvene</translation>
         </message>
         <message>
             <source>rib</source>
@@ -11815,7 +11815,7 @@ Anteil</translation>
         </message>
         <message>
             <source>◆ tip in a gap</source>
-            <translation>◆ Spitze in einer Lücke</translation>
+            <translation type="unfinished">◆ Spitze in einer Lücke</translation>
         </message>
         <message>
             <source>▲ shaft only</source>
@@ -11871,7 +11871,7 @@ Anteil</translation>
         </message>
         <message>
             <source>What happened to the patient</source>
-            <translation>Was dem Patienten geschah</translation>
+            <translation type="unfinished">Was dem Patienten geschah</translation>
         </message>
         <message>
             <source>Next: {title}</source>
@@ -12100,7 +12100,7 @@ Anteil</translation>
         </message>
         <message>
             <source>Beside it</source>
-            <translation>Daneben</translation>
+            <translation type="unfinished">Daneben</translation>
         </message>
         <message>
             <source>Aligned</source>
@@ -12222,7 +12222,7 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>· {what}, at {when}</source>
-            <translation>· {what}, bei {when}</translation>
+            <translation type="unfinished">· {what}, bei {when}</translation>
         </message>
         <message>
             <source>real robot</source>
@@ -12406,7 +12406,7 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>{n} of {of} samples suffice for a diagnosis; the best holds {mm:.1f} mm of lesion.</source>
-            <translation>{n} von {of} Proben genügen für eine Diagnose; die beste enthält {mm:.1f} mm Läsion.</translation>
+            <translation type="unfinished">{n} von {of} Proben genügen für eine Diagnose; die beste enthält {mm:.1f} mm Läsion.</translation>
         </message>
         <message>
             <source>to the patient's left</source>
@@ -13314,11 +13314,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>The lesion's surface unrolled: margin in mm; hatched where less than wanted</source>
-            <translation>Die Oberfläche der Läsion abgerollt: Sicherheitsabstand in mm; schraffiert, wo er kleiner ist als verlangt</translation>
+            <translation type="unfinished">Die Oberfläche der Läsion abgerollt: Sicherheitsabstand in mm; schraffiert, wo er kleiner ist als verlangt</translation>
         </message>
         <message>
             <source>&lt;0</source>
-            <translation>&lt;0</translation>
+            <translation type="unfinished">&lt;0</translation>
         </message>
         <message>
             <source>front</source>
@@ -13330,55 +13330,55 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>Ablation: planned against reached</source>
-            <translation>Ablation: geplant gegen erreicht</translation>
+            <translation type="unfinished">Ablation: geplant gegen erreicht</translation>
         </message>
         <message>
             <source>Margin planned [mm]</source>
-            <translation>Sicherheitsabstand geplant [mm]</translation>
+            <translation type="unfinished">Sicherheitsabstand geplant [mm]</translation>
         </message>
         <message>
             <source>Margin reached [mm]</source>
-            <translation>Sicherheitsabstand erreicht [mm]</translation>
+            <translation type="unfinished">Sicherheitsabstand erreicht [mm]</translation>
         </message>
         <message>
             <source>Ablation</source>
-            <translation>Ablation</translation>
+            <translation type="unfinished">Ablation</translation>
         </message>
         <message>
             <source>Planned</source>
-            <translation>Geplant</translation>
+            <translation type="unfinished">Geplant</translation>
         </message>
         <message>
             <source>Reached</source>
-            <translation>Erreicht</translation>
+            <translation type="unfinished">Erreicht</translation>
         </message>
         <message>
             <source>▲ Zones ex vivo: without blood, larger than in a patient</source>
-            <translation>▲ Zonen ex vivo: ohne Blut, größer als im Patienten</translation>
+            <translation type="unfinished">▲ Zonen ex vivo: ohne Blut, größer als im Patienten</translation>
         </message>
         <message>
             <source>Least margin (wanted {mm:g} mm)</source>
-            <translation>Kleinster Abstand (verlangt {mm:g} mm)</translation>
+            <translation type="unfinished">Kleinster Abstand (verlangt {mm:g} mm)</translation>
         </message>
         <message>
             <source>Lesion ablated</source>
-            <translation>Läsion abladiert</translation>
+            <translation type="unfinished">Läsion abladiert</translation>
         </message>
         <message>
             <source>{share:.1f} %</source>
-            <translation>{share:.1f} %</translation>
+            <translation type="unfinished">{share:.1f} %</translation>
         </message>
         <message>
             <source>Electrode {n}, off its place</source>
-            <translation>Elektrode {n}, neben ihrem Platz</translation>
+            <translation type="unfinished">Elektrode {n}, neben ihrem Platz</translation>
         </message>
         <message>
             <source>{power:g} W, {minutes:g} min</source>
-            <translation>{power:g} W, {minutes:g} min</translation>
+            <translation type="unfinished">{power:g} W, {minutes:g} min</translation>
         </message>
         <message>
             <source>Generator</source>
-            <translation>Generator</translation>
+            <translation type="unfinished">Generator</translation>
         </message>
         <message>
             <source>head</source>
@@ -13928,7 +13928,7 @@ aus der Ebene {c:+.1f}° (Pfad {d:+.1f}°)</translation>
         </message>
         <message>
             <source>Out of the room: {s:.0f} s</source>
-            <translation>Außerhalb des Raums: {s:.0f} s</translation>
+            <translation type="unfinished">Außerhalb des Raums: {s:.0f} s</translation>
         </message>
         <message>
             <source>Arm the robot and begin recording (F5)</source>
@@ -14192,7 +14192,7 @@ frei wählbar</translation>
         </message>
         <message>
             <source>Scans: {n} · {dose:.1f} mGy·cm · hand {hand:.0f} µSv ({estimate})</source>
-            <translation>Aufnahmen: {n} · {dose:.1f} mGy·cm · Hand {hand:.0f} µSv ({estimate})</translation>
+            <translation type="unfinished">Aufnahmen: {n} · {dose:.1f} mGy·cm · Hand {hand:.0f} µSv ({estimate})</translation>
         </message>
         <message>
             <source>Middle of the scan along the patient (z of LPS): + is headwards</source>
@@ -14228,11 +14228,11 @@ frei wählbar</translation>
         </message>
         <message>
             <source>Mark the entry</source>
-            <translation>Einstich anzeichnen</translation>
+            <translation type="unfinished">Einstich anzeichnen</translation>
         </message>
         <message>
             <source>Point the needle</source>
-            <translation>Nadel richten</translation>
+            <translation type="unfinished">Nadel richten</translation>
         </message>
         <message>
             <source>Table</source>
@@ -14240,71 +14240,71 @@ frei wählbar</translation>
         </message>
         <message>
             <source>Table position at which the laser meets the entry (z)</source>
-            <translation>Tischposition, bei der der Laser den Einstich trifft (z)</translation>
+            <translation type="unfinished">Tischposition, bei der der Laser den Einstich trifft (z)</translation>
         </message>
         <message>
             <source>Grid line</source>
-            <translation>Rasterlinie</translation>
+            <translation type="unfinished">Rasterlinie</translation>
         </message>
         <message>
             <source>From the patient's right; each fifth is thick</source>
-            <translation>Von der rechten Seite des Patienten; jede fünfte ist dick</translation>
+            <translation type="unfinished">Von der rechten Seite des Patienten; jede fünfte ist dick</translation>
         </message>
         <message>
             <source>Along the skin, + towards the next number</source>
-            <translation>Entlang der Haut, + zur nächsten Nummer hin</translation>
+            <translation type="unfinished">Entlang der Haut, + zur nächsten Nummer hin</translation>
         </message>
         <message>
             <source>Makes this place the entry: the patient is placed so that it lies on the fulcrum; how far it is from the entry that you planned is scored</source>
-            <translation>Macht diese Stelle zum Einstich: der Patient wird so gelagert, dass sie auf dem Drehpunkt liegt; wie weit sie vom geplanten Einstich entfernt ist, wird bewertet</translation>
+            <translation type="unfinished">Macht diese Stelle zum Einstich: der Patient wird so gelagert, dass sie auf dem Drehpunkt liegt; wie weit sie vom geplanten Einstich entfernt ist, wird bewertet</translation>
         </message>
         <message>
             <source>In the slice</source>
-            <translation>In der Schicht</translation>
+            <translation type="unfinished">In der Schicht</translation>
         </message>
         <message>
             <source>From straight down, + towards higher numbers</source>
-            <translation>Von senkrecht, + zu höheren Nummern</translation>
+            <translation type="unfinished">Von senkrecht, + zu höheren Nummern</translation>
         </message>
         <message>
             <source>Out of it</source>
-            <translation>Aus ihr heraus</translation>
+            <translation type="unfinished">Aus ihr heraus</translation>
         </message>
         <message>
             <source>Cranio-caudal: + towards the head</source>
-            <translation>Kraniokaudal: + zum Kopf</translation>
+            <translation type="unfinished">Kraniokaudal: + zum Kopf</translation>
         </message>
         <message>
             <source>°</source>
-            <translation>°</translation>
+            <translation type="unfinished">°</translation>
         </message>
         <message>
             <source>Lets the simulated hand point the needle by these two angles, as by a protractor; a needle in your own hand you turn yourself</source>
-            <translation>Lässt die simulierte Hand die Nadel nach diesen beiden Winkeln richten, wie mit einem Winkelmesser; eine Nadel in der eigenen Hand drehen Sie selbst</translation>
+            <translation type="unfinished">Lässt die simulierte Hand die Nadel nach diesen beiden Winkeln richten, wie mit einem Winkelmesser; eine Nadel in der eigenen Hand drehen Sie selbst</translation>
         </message>
         <message>
             <source>Entry on the skin</source>
-            <translation>Einstich auf der Haut</translation>
+            <translation type="unfinished">Einstich auf der Haut</translation>
         </message>
         <message>
             <source>Plan the entry on the CT first: the mark is compared with it</source>
-            <translation>Planen Sie zuerst den Einstich im CT: damit wird das Angezeichnete verglichen</translation>
+            <translation type="unfinished">Planen Sie zuerst den Einstich im CT: damit wird das Angezeichnete verglichen</translation>
         </message>
         <message>
             <source>Plan the entry on the CT first</source>
-            <translation>Planen Sie zuerst den Einstich im CT</translation>
+            <translation type="unfinished">Planen Sie zuerst den Einstich im CT</translation>
         </message>
         <message>
             <source>Needle: {plane:+.1f}° in the slice (+ towards higher numbers), {head:+.1f}° out of it (+ towards the head)</source>
-            <translation>Nadel: {plane:+.1f}° in der Schicht (+ zu höheren Nummern), {head:+.1f}° aus ihr heraus (+ zum Kopf)</translation>
+            <translation type="unfinished">Nadel: {plane:+.1f}° in der Schicht (+ zu höheren Nummern), {head:+.1f}° aus ihr heraus (+ zum Kopf)</translation>
         </message>
         <message>
             <source>Room between hub and bore: {mm:.0f} mm</source>
-            <translation>Platz zwischen Ansatz und Gantryöffnung: {mm:.0f} mm</translation>
+            <translation type="unfinished">Platz zwischen Ansatz und Gantryöffnung: {mm:.0f} mm</translation>
         </message>
         <message>
             <source>Marked at table {table:.1f} mm, line {line} {offset:+.1f} mm</source>
-            <translation>Angezeichnet bei Tisch {table:.1f} mm, Linie {line} {offset:+.1f} mm</translation>
+            <translation type="unfinished">Angezeichnet bei Tisch {table:.1f} mm, Linie {line} {offset:+.1f} mm</translation>
         </message>
         <message>
             <source>All slices</source>
@@ -14762,11 +14762,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Draw the needle out of the skin, turn it to {n}</source>
-            <translation>Nadel aus der Haut ziehen, zu {n} drehen</translation>
+            <translation type="unfinished">Nadel aus der Haut ziehen, zu {n} drehen</translation>
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
-            <translation>Ziehen Sie die Nadel heraus, oder geben Sie mehr (J)</translation>
+            <translation type="unfinished">Ziehen Sie die Nadel heraus, oder geben Sie mehr (J)</translation>
         </message>
         <message>
             <source>Stylet out (J) for another; or draw out and turn the patient (Alt+J)</source>
@@ -14782,23 +14782,23 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Another sample: stylet out (J). Enter ends the attempt</source>
-            <translation>Noch eine Probe: Mandrin heraus (J). Enter beendet den Versuch</translation>
+            <translation type="unfinished">Noch eine Probe: Mandrin heraus (J). Enter beendet den Versuch</translation>
         </message>
         <message>
             <source>Push to just before pleura or capsule, then give local anaesthetic (J)</source>
-            <translation>Bis kurz vor Pleura oder Kapsel vorschieben, dann Lokalanästhetikum geben (J)</translation>
+            <translation type="unfinished">Bis kurz vor Pleura oder Kapsel vorschieben, dann Lokalanästhetikum geben (J)</translation>
         </message>
         <message>
             <source>Stop with the tip at the lesion's near edge, then stylet out (J)</source>
-            <translation>Mit der Spitze am nahen Rand der Läsion anhalten, dann Mandrin heraus (J)</translation>
+            <translation type="unfinished">Mit der Spitze am nahen Rand der Läsion anhalten, dann Mandrin heraus (J)</translation>
         </message>
         <message>
             <source>The hub is open: gun in, or stylet in (J)</source>
-            <translation>Der Ansatz ist offen: Gerät hinein, oder Mandrin hinein (J)</translation>
+            <translation type="unfinished">Der Ansatz ist offen: Gerät hinein, oder Mandrin hinein (J)</translation>
         </message>
         <message>
             <source>Hold still and fire (Ctrl+J)</source>
-            <translation>Stillhalten und auslösen (Ctrl+J)</translation>
+            <translation type="unfinished">Stillhalten und auslösen (Ctrl+J)</translation>
         </message>
         <message>
             <source>Held, {s:.0f} s left: </source>
@@ -15198,7 +15198,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>DICOMweb: by https</source>
-            <translation>DICOMweb: über https</translation>
+            <translation type="unfinished">DICOMweb: über https</translation>
         </message>
         <message>
             <source>Encrypted connection (TLS)</source>
@@ -15258,19 +15258,19 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Web address</source>
-            <translation>Webadresse</translation>
+            <translation type="unfinished">Webadresse</translation>
         </message>
         <message>
             <source>https://…/dicom-web, before /studies</source>
-            <translation>https://…/dicom-web, vor /studies</translation>
+            <translation type="unfinished">https://…/dicom-web, vor /studies</translation>
         </message>
         <message>
             <source>name that the archive gave you; may stay empty</source>
-            <translation>Name, den Ihnen das Archiv gab; darf leer bleiben</translation>
+            <translation type="unfinished">Name, den Ihnen das Archiv gab; darf leer bleiben</translation>
         </message>
         <message>
             <source>kept in a file that only you can read</source>
-            <translation>in einer Datei verwahrt, die nur Sie lesen können</translation>
+            <translation type="unfinished">in einer Datei verwahrt, die nur Sie lesen können</translation>
         </message>
         <message>
             <source>Own address</source>
@@ -15342,7 +15342,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Test</source>
-            <translation>Prüfen</translation>
+            <translation type="unfinished">Prüfen</translation>
         </message>
         <message>
             <source>Asking {name}…</source>
@@ -15878,15 +15878,15 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{day!r} is no day; give one such as 2026-11-30</source>
-            <translation>{day!r} ist kein Tag; geben Sie einen wie 2026-11-30 an</translation>
+            <translation type="unfinished">{day!r} ist kein Tag; geben Sie einen wie 2026-11-30 an</translation>
         </message>
         <message>
             <source>a course {id} is there already: give another --name, or change it in the window</source>
-            <translation>einen Kurs {id} gibt es schon: geben Sie einen anderen --name an, oder ändern Sie ihn im Fenster</translation>
+            <translation type="unfinished">einen Kurs {id} gibt es schon: geben Sie einen anderen --name an, oder ändern Sie ihn im Fenster</translation>
         </message>
         <message>
             <source>{id:32} {units} units  {title}</source>
-            <translation>{id:32} {units} Einheiten  {title}</translation>
+            <translation type="unfinished">{id:32} {units} Einheiten  {title}</translation>
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -16421,27 +16421,27 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Begin with</source>
-            <translation>Beginnen mit</translation>
+            <translation type="unfinished">Beginnen mit</translation>
         </message>
         <message>
             <source>nothing: an empty course</source>
-            <translation>nichts: ein leerer Kurs</translation>
+            <translation type="unfinished">nichts: ein leerer Kurs</translation>
         </message>
         <message>
             <source>First day of the course; its units are counted from it</source>
-            <translation>Erster Tag des Kurses; seine Einheiten werden von ihm an gezählt</translation>
+            <translation type="unfinished">Erster Tag des Kurses; seine Einheiten werden von ihm an gezählt</translation>
         </message>
         <message>
             <source>First day</source>
-            <translation>Erster Tag</translation>
+            <translation type="unfinished">Erster Tag</translation>
         </message>
         <message>
             <source>Fill in</source>
-            <translation>Eintragen</translation>
+            <translation type="unfinished">Eintragen</translation>
         </message>
         <message>
             <source>Put the plan's exercises and days into the form, in place of what is there</source>
-            <translation>Übungen und Tage des Plans in das Formular eintragen, anstelle dessen, was dort steht</translation>
+            <translation type="unfinished">Übungen und Tage des Plans in das Formular eintragen, anstelle dessen, was dort steht</translation>
         </message>
         <message>
             <source>any</source>
@@ -16765,7 +16765,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Report the path through the lung</source>
-            <translation>Weg durch die Lunge prüfen</translation>
+            <translation type="unfinished">Weg durch die Lunge prüfen</translation>
         </message>
         <message>
             <source>Clear</source>
@@ -16773,63 +16773,63 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>For a target in the lung: pleura and fissures crossed with their angles, lung and emphysema on the way, room to ribs and intercostal vessels, vessels and bronchi.</source>
-            <translation>Für ein Ziel in der Lunge: durchstochene Pleura und Fissuren mit ihren Winkeln, Lunge und Emphysem auf dem Weg, Abstand zu Rippen und Interkostalgefäßen, Gefäße und Bronchien.</translation>
+            <translation type="unfinished">Für ein Ziel in der Lunge: durchstochene Pleura und Fissuren mit ihren Winkeln, Lunge und Emphysem auf dem Weg, Abstand zu Rippen und Interkostalgefäßen, Gefäße und Bronchien.</translation>
         </message>
         <message>
             <source>Your plan</source>
-            <translation>Ihr Plan</translation>
+            <translation type="unfinished">Ihr Plan</translation>
         </message>
         <message>
             <source>The selected alternative stands beside your plan.</source>
-            <translation>Die gewählte Alternative steht neben Ihrem Plan.</translation>
+            <translation type="unfinished">Die gewählte Alternative steht neben Ihrem Plan.</translation>
         </message>
         <message>
             <source>Select a path of the map to see its figures beside your plan's.</source>
-            <translation>Wählen Sie einen Weg der Karte, um seine Werte neben denen Ihres Plans zu sehen.</translation>
+            <translation type="unfinished">Wählen Sie einen Weg der Karte, um seine Werte neben denen Ihres Plans zu sehen.</translation>
         </message>
         <message>
             <source>Path through the lung</source>
-            <translation>Weg durch die Lunge</translation>
+            <translation type="unfinished">Weg durch die Lunge</translation>
         </message>
         <message>
             <source>The path is being looked up…</source>
-            <translation>Der Weg wird nachgesehen…</translation>
+            <translation type="unfinished">Der Weg wird nachgesehen…</translation>
         </message>
         <message>
             <source>Place entry and target first (keys E, T)</source>
-            <translation>Setzen Sie zuerst Einstich und Ziel (Tasten E, T)</translation>
+            <translation type="unfinished">Setzen Sie zuerst Einstich und Ziel (Tasten E, T)</translation>
         </message>
         <message>
             <source>Reporting the path</source>
-            <translation>Weg wird geprüft</translation>
+            <translation type="unfinished">Weg wird geprüft</translation>
         </message>
         <message>
             <source>Pleura {angle:.0f}°</source>
-            <translation>Pleura {angle:.0f}°</translation>
+            <translation type="unfinished">Pleura {angle:.0f}°</translation>
         </message>
         <message>
             <source>Fissure</source>
-            <translation>Fissur</translation>
+            <translation type="unfinished">Fissur</translation>
         </message>
         <message>
             <source>Fissure {angle:.0f}°</source>
-            <translation>Fissur {angle:.0f}°</translation>
+            <translation type="unfinished">Fissur {angle:.0f}°</translation>
         </message>
         <message>
             <source>Rib below</source>
-            <translation>Rippe darunter</translation>
+            <translation type="unfinished">Rippe darunter</translation>
         </message>
         <message>
             <source>Rib above</source>
-            <translation>Rippe darüber</translation>
+            <translation type="unfinished">Rippe darüber</translation>
         </message>
         <message>
             <source>{name} {mm:.1f} mm</source>
-            <translation>{name} {mm:.1f} mm</translation>
+            <translation type="unfinished">{name} {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Rib met</source>
-            <translation>Rippe getroffen</translation>
+            <translation type="unfinished">Rippe getroffen</translation>
         </message>
         <message>
             <source>Take this path</source>
@@ -16892,7 +16892,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Alternative
 {points:.0f} points</source>
-            <translation>Alternative
+            <translation type="unfinished">Alternative
 {points:.0f} Punkte</translation>
         </message>
         <message>
@@ -17389,11 +17389,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Conformance of a board</source>
-            <translation>Konformität einer Platine</translation>
+            <translation type="unfinished">Konformität einer Platine</translation>
         </message>
         <message>
             <source>Serial number</source>
-            <translation>Seriennummer</translation>
+            <translation type="unfinished">Seriennummer</translation>
         </message>
         <message>
             <source>Firmware</source>
@@ -17401,7 +17401,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Asked</source>
-            <translation>Befragt am</translation>
+            <translation type="unfinished">Befragt am</translation>
         </message>
         <message>
             <source>{version}, protocol {protocol}</source>
@@ -18245,7 +18245,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>next step, fire the gun (something is wrong, do it)</source>
-            <translation>nächster Schritt, auslösen (etwas stimmt nicht, tun)</translation>
+            <translation type="unfinished">nächster Schritt, auslösen (etwas stimmt nicht, tun)</translation>
         </message>
         <message>
             <source>open CT folder, open plan</source>
@@ -19489,11 +19489,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Anaesthetic to membrane</source>
-            <translation>Anästhetikum bis zur Membran</translation>
+            <translation type="unfinished">Anästhetikum bis zur Membran</translation>
         </message>
         <message>
             <source>Angle at the pleura of the planned path</source>
-            <translation>Winkel des geplanten Wegs zur Pleura</translation>
+            <translation type="unfinished">Winkel des geplanten Wegs zur Pleura</translation>
         </message>
         <message>
             <source>Angle error at the skin</source>
@@ -19573,11 +19573,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Complication answered</source>
-            <translation>Reaktion auf Komplikation</translation>
+            <translation type="unfinished">Reaktion auf Komplikation</translation>
         </message>
         <message>
             <source>Complication noticed after</source>
-            <translation>Komplikation bemerkt nach</translation>
+            <translation type="unfinished">Komplikation bemerkt nach</translation>
         </message>
         <message>
             <source>Contact of the tip with bone</source>
@@ -19609,7 +19609,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Diagnostic samples</source>
-            <translation>Diagnostische Proben</translation>
+            <translation type="unfinished">Diagnostische Proben</translation>
         </message>
         <message>
             <source>Dimpling and puncture of skin, fascia and capsule</source>
@@ -19629,7 +19629,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Dose of the hand (teaching estimate)</source>
-            <translation>Handdosis (Schätzwert für die Lehre)</translation>
+            <translation type="unfinished">Handdosis (Schätzwert für die Lehre)</translation>
         </message>
         <message>
             <source>Economy of motion</source>
@@ -19637,11 +19637,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Electrode spacing error</source>
-            <translation>Fehler des Elektrodenabstands</translation>
+            <translation type="unfinished">Fehler des Elektrodenabstands</translation>
         </message>
         <message>
             <source>Emphysema on the planned path</source>
-            <translation>Emphysem auf dem geplanten Weg</translation>
+            <translation type="unfinished">Emphysem auf dem geplanten Weg</translation>
         </message>
         <message>
             <source>Entries that planning help tries: how many find the best path</source>
@@ -19661,7 +19661,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Fissures on the planned path</source>
-            <translation>Fissuren auf dem geplanten Weg</translation>
+            <translation type="unfinished">Fissuren auf dem geplanten Weg</translation>
         </message>
         <message>
             <source>Force at its limit</source>
@@ -19717,7 +19717,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Hub open to air</source>
-            <translation>Ansatz offen zur Luft</translation>
+            <translation type="unfinished">Ansatz offen zur Luft</translation>
         </message>
         <message>
             <source>Impedance at the tool point: virtual mass, spring and damper</source>
@@ -19749,7 +19749,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Least margin</source>
-            <translation>Kleinster Sicherheitsabstand</translation>
+            <translation type="unfinished">Kleinster Sicherheitsabstand</translation>
         </message>
         <message>
             <source>Least squares of the band's whole picture</source>
@@ -19757,7 +19757,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Lesion in the best sample</source>
-            <translation>Läsion in der besten Probe</translation>
+            <translation type="unfinished">Läsion in der besten Probe</translation>
         </message>
         <message>
             <source>Letting go of the needle: force to be had against run-away</source>
@@ -19769,23 +19769,23 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Liver ablation with three needles</source>
-            <translation>Leberablation mit drei Nadeln</translation>
+            <translation type="unfinished">Leberablation mit drei Nadeln</translation>
         </message>
         <message>
             <source>Lung biopsy in six units</source>
-            <translation>Lungenbiopsie in sechs Einheiten</translation>
+            <translation type="unfinished">Lungenbiopsie in sechs Einheiten</translation>
         </message>
         <message>
             <source>Lung biopsy in which something can happen</source>
-            <translation>Lungenbiopsie, bei der etwas geschehen kann</translation>
+            <translation type="unfinished">Lungenbiopsie, bei der etwas geschehen kann</translation>
         </message>
         <message>
             <source>Lung biopsy, from the skin to the sample</source>
-            <translation>Lungenbiopsie, von der Haut bis zur Probe</translation>
+            <translation type="unfinished">Lungenbiopsie, von der Haut bis zur Probe</translation>
         </message>
         <message>
             <source>Lung on the planned path</source>
-            <translation>Lunge auf dem geplanten Weg</translation>
+            <translation type="unfinished">Lunge auf dem geplanten Weg</translation>
         </message>
         <message>
             <source>Lung, oblique twice between ribs</source>
@@ -19793,7 +19793,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Marked entry off the planned one</source>
-            <translation>Angezeichneter Einstich neben dem geplanten</translation>
+            <translation type="unfinished">Angezeichneter Einstich neben dem geplanten</translation>
         </message>
         <message>
             <source>Mask, then the centroid of the covered shares</source>
@@ -19809,7 +19809,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Met by a throw</source>
-            <translation>Vom Schuss getroffen</translation>
+            <translation type="unfinished">Vom Schuss getroffen</translation>
         </message>
         <message>
             <source>Metrics against what is published of them</source>
@@ -19869,7 +19869,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Pause before the membrane</source>
-            <translation>Pause vor der Membran</translation>
+            <translation type="unfinished">Pause vor der Membran</translation>
         </message>
         <message>
             <source>Peak force, estimated</source>
@@ -19877,7 +19877,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Pierced by the anaesthetic</source>
-            <translation>Vom Anästhetikum durchstochen</translation>
+            <translation type="unfinished">Vom Anästhetikum durchstochen</translation>
         </message>
         <message>
             <source>Planned path</source>
@@ -19909,7 +19909,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Reached beside the organ</source>
-            <translation>Neben dem Organ erreicht</translation>
+            <translation type="unfinished">Neben dem Organ erreicht</translation>
         </message>
         <message>
             <source>Read the planning CT, align the needle by the plan and take control scans where you would in the scanner room: choose table position and 3 to 5 slices, press the pedal (S). A tip outside the slices is not seen. There is no other view of the needle and no guidance by the robot. Use few scans. The patient holds the breath.</source>
@@ -19937,11 +19937,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Room to intercostal vessels</source>
-            <translation>Abstand zu Interkostalgefäßen</translation>
+            <translation type="unfinished">Abstand zu Interkostalgefäßen</translation>
         </message>
         <message>
             <source>Room to the ribs on the planned path</source>
-            <translation>Abstand des geplanten Wegs zu den Rippen</translation>
+            <translation type="unfinished">Abstand des geplanten Wegs zu den Rippen</translation>
         </message>
         <message>
             <source>Side stiffness of layered tissue about the fulcrum</source>
@@ -19973,7 +19973,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
-            <translation>Vom ersten Einstich bis zur ganzen Biopsie eines Lungenherds: Hand und Gewebe, das Wählen eines Wegs, ein doppelt schräger Weg zwischen zwei Rippen, die ganze Biopsie, eine, bei der etwas geschehen kann, und eine Prüfung allein mit Kontrollscans.</translation>
+            <translation type="unfinished">Vom ersten Einstich bis zur ganzen Biopsie eines Lungenherds: Hand und Gewebe, das Wählen eines Wegs, ein doppelt schräger Weg zwischen zwei Rippen, die ganze Biopsie, eine, bei der etwas geschehen kann, und eine Prüfung allein mit Kontrollscans.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -20121,7 +20121,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Vessels within 3 mm</source>
-            <translation>Gefäße innerhalb 3 mm</translation>
+            <translation type="unfinished">Gefäße innerhalb 3 mm</translation>
         </message>
         <message>
             <source>Views of a board that calibrate a camera</source>
@@ -20264,7 +20264,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message numerus="yes">
             <source>{n} attempts of scripts, not people</source>
-            <translation>
+            <translation type="unfinished">
                 <numerusform>{n} Versuch von Skripten, nicht von Menschen</numerusform>
                 <numerusform>{n} Versuche von Skripten, nicht von Menschen</numerusform>
             </translation>
@@ -20376,7 +20376,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message numerus="yes">
             <source>{n} have no score and are in no mean</source>
-            <translation>
+            <translation type="unfinished">
                 <numerusform>{n} hat keine Punkte und ist in keinem Mittelwert</numerusform>
                 <numerusform>{n} haben keine Punkte und sind in keinem Mittelwert</numerusform>
             </translation>
@@ -20864,46 +20864,46 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>
   complications, by lot at published odds: pneumothorax {air:.0f} % of a needle along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %</source>
-            <translation>
+            <translation type="unfinished">
   Komplikationen, durch das Los nach veröffentlichten Odds: Pneumothorax {air:.0f} % bei einer Nadel entlang des Plans, {drain:.0f} % davon mit Drainage; Blut in der Lunge {blood:.0f} %</translation>
         </message>
         <message>
             <source>    it has: {factors}</source>
-            <translation>    sie hat: {factors}</translation>
+            <translation type="unfinished">    sie hat: {factors}</translation>
         </message>
         <message>
             <source>    not known, as in the case mix: {factors}</source>
-            <translation>    nicht bekannt, wie im Patientengut: {factors}</translation>
+            <translation type="unfinished">    nicht bekannt, wie im Patientengut: {factors}</translation>
         </message>
         <message>
             <source>    {source}</source>
-            <translation>    {source}</translation>
+            <translation type="unfinished">    {source}</translation>
         </message>
         <message>
             <source>
   ablates with {electrodes} electrodes, one after another through one entry, {power:g} W for {minutes:g} min</source>
-            <translation>
+            <translation type="unfinished">
   abladiert mit {electrodes} Elektroden, eine nach der anderen durch einen Eintritt, {power:g} W für {minutes:g} min</translation>
         </message>
         <message>
             <source>generator</source>
-            <translation>Generator</translation>
+            <translation type="unfinished">Generator</translation>
         </message>
         <message>
             <source>source</source>
-            <translation>Quelle</translation>
+            <translation type="unfinished">Quelle</translation>
         </message>
         <message>
             <source>{margin:.1f} mm planned of {wanted:g} wanted, {share:.1f} % of the lesion</source>
-            <translation>{margin:.1f} mm geplant von {wanted:g} verlangten, {share:.1f} % der Läsion</translation>
+            <translation type="unfinished">{margin:.1f} mm geplant von {wanted:g} verlangten, {share:.1f} % der Läsion</translation>
         </message>
         <message>
             <source>margin</source>
-            <translation>Abstand</translation>
+            <translation type="unfinished">Abstand</translation>
         </message>
         <message>
             <source>{vessel} lies within 3 mm of the zone: what it cools is not reckoned</source>
-            <translation>{vessel} liegt innerhalb 3 mm der Zone: was das kühlt, ist nicht gerechnet</translation>
+            <translation type="unfinished">{vessel} liegt innerhalb 3 mm der Zone: was das kühlt, ist nicht gerechnet</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -20963,11 +20963,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>give --user with --web</source>
-            <translation>geben Sie --user zusammen mit --web an</translation>
+            <translation type="unfinished">geben Sie --user zusammen mit --web an</translation>
         </message>
         <message>
             <source>give --host and --title, or --web</source>
-            <translation>geben Sie --host und --title an, oder --web</translation>
+            <translation type="unfinished">geben Sie --host und --title an, oder --web</translation>
         </message>
         <message>
             <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
@@ -20991,7 +20991,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>DICOMweb has no C-MOVE; use `acus pacs get`</source>
-            <translation>DICOMweb kennt kein C-MOVE; verwenden Sie `acus pacs get`</translation>
+            <translation type="unfinished">DICOMweb kennt kein C-MOVE; verwenden Sie `acus pacs get`</translation>
         </message>
         <message>
             <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
@@ -21195,11 +21195,11 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>no report of a path through the lung was asked for</source>
-            <translation>nach einem Bericht über den Weg durch die Lunge war nicht gefragt</translation>
+            <translation type="unfinished">nach einem Bericht über den Weg durch die Lunge war nicht gefragt</translation>
         </message>
         <message>
             <source>nobody labelled what would tell it in this patient</source>
-            <translation>bei diesem Patienten hat niemand markiert, was es zeigen würde</translation>
+            <translation type="unfinished">bei diesem Patienten hat niemand markiert, was es zeigen würde</translation>
         </message>
         <message>
             <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
@@ -21243,7 +21243,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Whole procedures</source>
-            <translation>Ganze Eingriffe</translation>
+            <translation type="unfinished">Ganze Eingriffe</translation>
         </message>
         <message>
             <source>Research machines</source>
@@ -23315,15 +23315,15 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{name} cannot be reached: no computer {host} is known</source>
-            <translation>{name} ist nicht erreichbar: kein Rechner {host} ist bekannt</translation>
+            <translation type="unfinished">{name} ist nicht erreichbar: kein Rechner {host} ist bekannt</translation>
         </message>
         <message>
             <source>{name} cannot be reached: nothing listens at {host}</source>
-            <translation>{name} ist nicht erreichbar: unter {host} antwortet niemand</translation>
+            <translation type="unfinished">{name} ist nicht erreichbar: unter {host} antwortet niemand</translation>
         </message>
         <message>
             <source>{name} does not answer, or not to the end, within {seconds:g} s: try again, what has been taken is kept once</source>
-            <translation>{name} antwortet nicht oder nicht bis zum Ende innerhalb von {seconds:g} s: versuchen Sie es noch einmal, was angenommen wurde, bleibt einmal erhalten</translation>
+            <translation type="unfinished">{name} antwortet nicht oder nicht bis zum Ende innerhalb von {seconds:g} s: versuchen Sie es noch einmal, was angenommen wurde, bleibt einmal erhalten</translation>
         </message>
         <message>
             <source>{name} does not let {user!r} in ({status}): give name and password again</source>
@@ -23495,35 +23495,35 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>device {name} is of kind {kind}; MJCF is written for kind {kinds} alone</source>
-            <translation>Gerät {name} ist von der Art {kind}; MJCF wird nur für die Art {kinds} geschrieben</translation>
+            <translation type="unfinished">Gerät {name} ist von der Art {kind}; MJCF wird nur für die Art {kinds} geschrieben</translation>
         </message>
         <message>
             <source>{name} lists more than {most_pictures} pictures</source>
-            <translation>{name} führt mehr als {most_pictures} Bilder auf</translation>
+            <translation type="unfinished">{name} führt mehr als {most_pictures} Bilder auf</translation>
         </message>
         <message>
             <source>it sent a picture that is too large</source>
-            <translation>es hat ein zu großes Bild gesendet</translation>
+            <translation type="unfinished">es hat ein zu großes Bild gesendet</translation>
         </message>
         <message>
             <source>it sent something else than one picture for one picture</source>
-            <translation>es hat etwas anderes als ein Bild für ein Bild gesendet</translation>
+            <translation type="unfinished">es hat etwas anderes als ein Bild für ein Bild gesendet</translation>
         </message>
         <message>
             <source>{name} does not answer as an archive by the web: its address must be the one before /studies</source>
-            <translation>{name} antwortet nicht wie ein Archiv im Web: die Adresse muss die vor /studies sein</translation>
+            <translation type="unfinished">{name} antwortet nicht wie ein Archiv im Web: die Adresse muss die vor /studies sein</translation>
         </message>
         <message>
             <source>{name} refuses with {status}; try again, and ask who runs it if it stays</source>
-            <translation>{name} lehnt mit {status} ab; versuchen Sie es noch einmal, und fragen Sie den Betreiber, wenn es so bleibt</translation>
+            <translation type="unfinished">{name} lehnt mit {status} ab; versuchen Sie es noch einmal, und fragen Sie den Betreiber, wenn es so bleibt</translation>
         </message>
         <message>
             <source>{name}: {uid!r} is no UID of DICOM</source>
-            <translation>{name}: {uid!r} ist keine UID von DICOM</translation>
+            <translation type="unfinished">{name}: {uid!r} ist keine UID von DICOM</translation>
         </message>
         <message>
             <source>PACS {name} has no web address: `acus pacs add {name} --web https://…`</source>
-            <translation>Das PACS {name} hat keine Webadresse: `acus pacs add {name} --web https://…`</translation>
+            <translation type="unfinished">Das PACS {name} hat keine Webadresse: `acus pacs add {name} --web https://…`</translation>
         </message>
         <message>
             <source>no provider is named: `acus people openid --issuer URL --client ID`</source>
@@ -23687,15 +23687,15 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>diagnostic_mm {diagnostic_mm:g} is more than the longest notch holds, {longest:g} mm: no sample could suffice</source>
-            <translation>diagnostic_mm {diagnostic_mm:g} ist mehr, als die längste Kerbe fasst, {longest:g} mm: keine Probe könnte genügen</translation>
+            <translation type="unfinished">diagnostic_mm {diagnostic_mm:g} ist mehr, als die längste Kerbe fasst, {longest:g} mm: keine Probe könnte genügen</translation>
         </message>
         <message>
             <source>neither pneumothorax nor bleeding can happen: leave complications out</source>
-            <translation>Weder Pneumothorax noch Blutung kann eintreten: complications weglassen</translation>
+            <translation type="unfinished">Weder Pneumothorax noch Blutung kann eintreten: complications weglassen</translation>
         </message>
         <message>
             <source>lines: {lines}: an odd number has a line in the middle</source>
-            <translation>lines: {lines}: eine ungerade Zahl hat eine Linie in der Mitte</translation>
+            <translation type="unfinished">lines: {lines}: eine ungerade Zahl hat eine Linie in der Mitte</translation>
         </message>
         <message>
             <source>inr {inr:g}: above {most:g} coagulation is corrected before a needle goes in; give a patient with {most:g} or less</source>
@@ -23711,127 +23711,127 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
-            <translation>procedure: Proben und Ablation sind zwei Übungen: eines weglassen</translation>
+            <translation type="unfinished">procedure: Proben und Ablation sind zwei Übungen: eines weglassen</translation>
         </message>
         <message>
             <source>procedure names no step; there are {names}</source>
-            <translation>procedure nennt keinen Schritt; es gibt {names}</translation>
+            <translation type="unfinished">procedure nennt keinen Schritt; es gibt {names}</translation>
         </message>
         <message>
             <source>a throw of {throw_mm:g} mm with a notch of {notch_mm:g} mm and a tip of {tip_mm:g} mm beyond it: all must be above 0</source>
-            <translation>ein Schuss von {throw_mm:g} mm mit einer Kerbe von {notch_mm:g} mm und einer Spitze von {tip_mm:g} mm dahinter: alle müssen über 0 liegen</translation>
+            <translation type="unfinished">ein Schuss von {throw_mm:g} mm mit einer Kerbe von {notch_mm:g} mm und einer Spitze von {tip_mm:g} mm dahinter: alle müssen über 0 liegen</translation>
         </message>
         <message>
             <source>a notch of {notch_mm:g} mm and {tip_mm:g} mm beyond it are longer than the throw of {throw_mm:g} mm: part of the notch would stay in the outer needle</source>
-            <translation>eine Kerbe von {notch_mm:g} mm und {tip_mm:g} mm dahinter sind länger als der Schuss von {throw_mm:g} mm: ein Teil der Kerbe bliebe in der Außennadel</translation>
+            <translation type="unfinished">eine Kerbe von {notch_mm:g} mm und {tip_mm:g} mm dahinter sind länger als der Schuss von {throw_mm:g} mm: ein Teil der Kerbe bliebe in der Außennadel</translation>
         </message>
         <message>
             <source>the throw leaves the organ {ahead:.1f} mm ahead, into {tissue}</source>
-            <translation>der Schuss verlässt das Organ nach {ahead:.1f} mm, in {tissue}</translation>
+            <translation type="unfinished">der Schuss verlässt das Organ nach {ahead:.1f} mm, in {tissue}</translation>
         </message>
         <message>
             <source>the throw meets {tissue} {ahead:.1f} mm ahead, for {length:.1f} mm</source>
-            <translation>der Schuss trifft {tissue} nach {ahead:.1f} mm, auf {length:.1f} mm</translation>
+            <translation type="unfinished">der Schuss trifft {tissue} nach {ahead:.1f} mm, auf {length:.1f} mm</translation>
         </message>
         <message>
             <source>the target lies in {tissue}: nobody marked a lesion there, so that no sample can be judged; mark it as a structure of kind target</source>
-            <translation>das Ziel liegt in {tissue}: dort hat niemand eine Läsion markiert, so dass keine Probe beurteilt werden kann; markieren Sie sie als Struktur der Art Ziel</translation>
+            <translation type="unfinished">das Ziel liegt in {tissue}: dort hat niemand eine Läsion markiert, so dass keine Probe beurteilt werden kann; markieren Sie sie als Struktur der Art Ziel</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min stands in the table twice: leave one out</source>
-            <translation>{power:g} W für {minutes:g} min steht zweimal in der Tabelle: eines weglassen</translation>
+            <translation type="unfinished">{power:g} W für {minutes:g} min steht zweimal in der Tabelle: eines weglassen</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min: a zone {long_mm:g} mm long cannot reach {ahead:g} mm ahead of the tip</source>
-            <translation>{power:g} W für {minutes:g} min: eine Zone von {long_mm:g} mm Länge kann nicht {ahead:g} mm vor die Spitze reichen</translation>
+            <translation type="unfinished">{power:g} W für {minutes:g} min: eine Zone von {long_mm:g} mm Länge kann nicht {ahead:g} mm vor die Spitze reichen</translation>
         </message>
         <message>
             <source>{title}: ex vivo, {tissue}</source>
-            <translation>{title}: ex vivo, {tissue}</translation>
+            <translation type="unfinished">{title}: ex vivo, {tissue}</translation>
         </message>
         <message>
             <source>{title}: in vivo, {tissue}</source>
-            <translation>{title}: in vivo, {tissue}</translation>
+            <translation type="unfinished">{title}: in vivo, {tissue}</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min is not in the generator's table; there are {all}</source>
-            <translation>{power:g} W für {minutes:g} min steht nicht in der Tabelle des Generators; es gibt {all}</translation>
+            <translation type="unfinished">{power:g} W für {minutes:g} min steht nicht in der Tabelle des Generators; es gibt {all}</translation>
         </message>
         <message>
             <source>the needle has no direction</source>
-            <translation>die Nadel hat keine Richtung</translation>
+            <translation type="unfinished">die Nadel hat keine Richtung</translation>
         </message>
         <message>
             <source>no generator's table is called {name!r}; there are {names}, or give the path of a .yaml file</source>
-            <translation>keine Generatortabelle heißt {name!r}; es gibt {names}, oder den Pfad einer .yaml-Datei angeben</translation>
+            <translation type="unfinished">keine Generatortabelle heißt {name!r}; es gibt {names}, oder den Pfad einer .yaml-Datei angeben</translation>
         </message>
         <message>
             <source>no local anaesthetic was given</source>
-            <translation>es wurde kein Lokalanästhetikum gegeben</translation>
+            <translation type="unfinished">es wurde kein Lokalanästhetikum gegeben</translation>
         </message>
         <message>
             <source>no pleura or capsule is known on the needle's way</source>
-            <translation>auf dem Weg der Nadel ist weder Pleura noch Kapsel bekannt</translation>
+            <translation type="unfinished">auf dem Weg der Nadel ist weder Pleura noch Kapsel bekannt</translation>
         </message>
         <message>
             <source>no sample was taken</source>
-            <translation>es wurde keine Probe genommen</translation>
+            <translation type="unfinished">es wurde keine Probe genommen</translation>
         </message>
         <message>
             <source>neither pleura nor capsule was crossed</source>
-            <translation>weder Pleura noch Kapsel wurde durchquert</translation>
+            <translation type="unfinished">weder Pleura noch Kapsel wurde durchquert</translation>
         </message>
         <message>
             <source>nothing was ablated</source>
-            <translation>nichts wurde abladiert</translation>
+            <translation type="unfinished">nichts wurde abladiert</translation>
         </message>
         <message>
             <source>a step of the procedure at {time} s: a number is not finite</source>
-            <translation>ein Schritt des Eingriffs bei {time} s: eine Zahl ist nicht endlich</translation>
+            <translation type="unfinished">ein Schritt des Eingriffs bei {time} s: eine Zahl ist nicht endlich</translation>
         </message>
         <message>
             <source>closes on day {closes}, before it opens on day {opens}</source>
-            <translation>schließt am Tag {closes}, bevor sie am Tag {opens} öffnet</translation>
+            <translation type="unfinished">schließt am Tag {closes}, bevor sie am Tag {opens} öffnet</translation>
         </message>
         <message>
             <source>{name!r} is no plan of a course; there: {known}</source>
-            <translation>{name!r} ist kein Kursplan; es gibt: {known}</translation>
+            <translation type="unfinished">{name!r} ist kein Kursplan; es gibt: {known}</translation>
         </message>
         <message>
             <source>local anaesthetic given</source>
-            <translation>Lokalanästhetikum gegeben</translation>
+            <translation type="unfinished">Lokalanästhetikum gegeben</translation>
         </message>
         <message>
             <source>the outer needle is taken</source>
-            <translation>die Außennadel ist zur Hand</translation>
+            <translation type="unfinished">die Außennadel ist zur Hand</translation>
         </message>
         <message>
             <source>stylet out: the hub is open</source>
-            <translation>Mandrin heraus: der Ansatz ist offen</translation>
+            <translation type="unfinished">Mandrin heraus: der Ansatz ist offen</translation>
         </message>
         <message>
             <source>stylet in</source>
-            <translation>Mandrin hinein</translation>
+            <translation type="unfinished">Mandrin hinein</translation>
         </message>
         <message>
             <source>biopsy gun in</source>
-            <translation>Biopsiegerät hinein</translation>
+            <translation type="unfinished">Biopsiegerät hinein</translation>
         </message>
         <message>
             <source>biopsy gun fired</source>
-            <translation>Biopsiegerät ausgelöst</translation>
+            <translation type="unfinished">Biopsiegerät ausgelöst</translation>
         </message>
         <message>
             <source>biopsy gun out: the hub is open</source>
-            <translation>Biopsiegerät heraus: der Ansatz ist offen</translation>
+            <translation type="unfinished">Biopsiegerät heraus: der Ansatz ist offen</translation>
         </message>
         <message>
             <source>electrode left in place</source>
-            <translation>Elektrode liegen gelassen</translation>
+            <translation type="unfinished">Elektrode liegen gelassen</translation>
         </message>
         <message>
             <source>the generator has ablated</source>
-            <translation>der Generator hat abladiert</translation>
+            <translation type="unfinished">der Generator hat abladiert</translation>
         </message>
         <message>
             <source>the patient knows the risks and agrees</source>
@@ -23847,31 +23847,31 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>needle for local anaesthetic</source>
-            <translation>Nadel für das Lokalanästhetikum</translation>
+            <translation type="unfinished">Nadel für das Lokalanästhetikum</translation>
         </message>
         <message>
             <source>outer needle with its stylet</source>
-            <translation>Außennadel mit ihrem Mandrin</translation>
+            <translation type="unfinished">Außennadel mit ihrem Mandrin</translation>
         </message>
         <message>
             <source>outer needle, open to air</source>
-            <translation>Außennadel, offen zur Luft</translation>
+            <translation type="unfinished">Außennadel, offen zur Luft</translation>
         </message>
         <message>
             <source>outer needle with the biopsy gun, cocked</source>
-            <translation>Außennadel mit gespanntem Biopsiegerät</translation>
+            <translation type="unfinished">Außennadel mit gespanntem Biopsiegerät</translation>
         </message>
         <message>
             <source>outer needle with the biopsy gun, fired</source>
-            <translation>Außennadel mit ausgelöstem Biopsiegerät</translation>
+            <translation type="unfinished">Außennadel mit ausgelöstem Biopsiegerät</translation>
         </message>
         <message>
             <source>electrode</source>
-            <translation>Elektrode</translation>
+            <translation type="unfinished">Elektrode</translation>
         </message>
         <message>
             <source>this exercise ablates nothing</source>
-            <translation>diese Übung abladiert nichts</translation>
+            <translation type="unfinished">diese Übung abladiert nichts</translation>
         </message>
         <message>
             <source>the patient was turned: nothing more is done with the needle</source>
@@ -23879,19 +23879,19 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>this exercise takes no samples</source>
-            <translation>in dieser Übung werden keine Proben genommen</translation>
+            <translation type="unfinished">in dieser Übung werden keine Proben genommen</translation>
         </message>
         <message>
             <source>not possible now: held is the {tool}</source>
-            <translation>jetzt nicht möglich: in der Hand ist: {tool}</translation>
+            <translation type="unfinished">jetzt nicht möglich: in der Hand ist: {tool}</translation>
         </message>
         <message>
             <source>the syringe is empty after {count} times</source>
-            <translation>die Spritze ist nach {count} Gaben leer</translation>
+            <translation type="unfinished">die Spritze ist nach {count} Gaben leer</translation>
         </message>
         <message>
             <source>{count} samples were taken: the exercise allows no more</source>
-            <translation>{count} Proben wurden genommen: mehr erlaubt die Übung nicht</translation>
+            <translation type="unfinished">{count} Proben wurden genommen: mehr erlaubt die Übung nicht</translation>
         </message>
         <message>
             <source>this exercise has no checklist</source>
@@ -23919,7 +23919,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>not done: the needle's depth is not measured now; let both cameras see the marker and do it again</source>
-            <translation>nicht ausgeführt: die Tiefe der Nadel wird jetzt nicht gemessen; lassen Sie beide Kameras den Marker sehen und wiederholen Sie es</translation>
+            <translation type="unfinished">nicht ausgeführt: die Tiefe der Nadel wird jetzt nicht gemessen; lassen Sie beide Kameras den Marker sehen und wiederholen Sie es</translation>
         </message>
         <message>
             <source>the needle for local anaesthetic is still in the body: draw it out first</source>
@@ -23931,47 +23931,47 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>the tip is outside the skin: insert it first</source>
-            <translation>die Spitze ist außerhalb der Haut: führen Sie sie zuerst ein</translation>
+            <translation type="unfinished">die Spitze ist außerhalb der Haut: führen Sie sie zuerst ein</translation>
         </message>
         <message>
             <source>nothing tells which tissue lies where: use tissue: field in the exercise</source>
-            <translation>nichts sagt, welches Gewebe wo liegt: verwenden Sie tissue: field in der Übung</translation>
+            <translation type="unfinished">nichts sagt, welches Gewebe wo liegt: verwenden Sie tissue: field in der Übung</translation>
         </message>
         <message>
             <source>the lesion was ablated already: the attempt can be ended</source>
-            <translation>die Läsion ist schon abladiert: der Versuch kann beendet werden</translation>
+            <translation type="unfinished">die Läsion ist schon abladiert: der Versuch kann beendet werden</translation>
         </message>
         <message>
             <source>all {count} electrodes are in place</source>
-            <translation>alle {count} Elektroden liegen</translation>
+            <translation type="unfinished">alle {count} Elektroden liegen</translation>
         </message>
         <message>
             <source>{count} of {of} electrodes are in place: place the others first</source>
-            <translation>{count} von {of} Elektroden liegen: zuerst die anderen setzen</translation>
+            <translation type="unfinished">{count} von {of} Elektroden liegen: zuerst die anderen setzen</translation>
         </message>
         <message>
             <source>electrode {electrode} is {apart:.1f} mm from here: two at one place ablate one zone; draw back and go at least {least:g} mm beside it</source>
-            <translation>Elektrode {electrode} ist {apart:.1f} mm von hier: zwei an einem Platz abladieren eine Zone; zurückziehen und mindestens {least:g} mm daneben setzen</translation>
+            <translation type="unfinished">Elektrode {electrode} ist {apart:.1f} mm von hier: zwei an einem Platz abladieren eine Zone; zurückziehen und mindestens {least:g} mm daneben setzen</translation>
         </message>
         <message>
             <source>row {row} of the generator's table: there are 0 to {most}</source>
-            <translation>Zeile {row} der Generatortabelle: es gibt 0 bis {most}</translation>
+            <translation type="unfinished">Zeile {row} der Generatortabelle: es gibt 0 bis {most}</translation>
         </message>
         <message>
             <source>electrode {electrode} of {of} left in place</source>
-            <translation>Elektrode {electrode} von {of} liegen gelassen</translation>
+            <translation type="unfinished">Elektrode {electrode} von {of} liegen gelassen</translation>
         </message>
         <message>
             <source>setting {setting} of the gun: there are 0 to {most}</source>
-            <translation>Einstellung {setting} des Geräts: es gibt 0 bis {most}</translation>
+            <translation type="unfinished">Einstellung {setting} des Geräts: es gibt 0 bis {most}</translation>
         </message>
         <message>
             <source>No sample was taken.</source>
-            <translation>Es wurde keine Probe genommen.</translation>
+            <translation type="unfinished">Es wurde keine Probe genommen.</translation>
         </message>
         <message>
             <source>The needle for local anaesthetic: {met}, at {clock}.</source>
-            <translation>Die Nadel für das Lokalanästhetikum: {met}, bei {clock}.</translation>
+            <translation type="unfinished">Die Nadel für das Lokalanästhetikum: {met}, bei {clock}.</translation>
         </message>
         <message>
             <source>Consent or coagulation was not checked before the needle went in.</source>
@@ -23979,7 +23979,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>The hub was open to air for {seconds:.1f} s with the tip in the body.</source>
-            <translation>Der Ansatz war {seconds:.1f} s offen zur Luft, mit der Spitze im Körper.</translation>
+            <translation type="unfinished">Der Ansatz war {seconds:.1f} s offen zur Luft, mit der Spitze im Körper.</translation>
         </message>
         <message>
             <source>Nobody turned the patient after the needle was out.</source>
@@ -23991,107 +23991,107 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion; the core passed {aside:.1f} mm beside its middle.</source>
-            <translation>Probe {ordinal} bei {clock}: {mm:.1f} mm Läsion; der Zylinder lag {aside:.1f} mm neben ihrer Mitte.</translation>
+            <translation type="unfinished">Probe {ordinal} bei {clock}: {mm:.1f} mm Läsion; der Zylinder lag {aside:.1f} mm neben ihrer Mitte.</translation>
         </message>
         <message>
             <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion.</source>
-            <translation>Probe {ordinal} bei {clock}: {mm:.1f} mm Läsion.</translation>
+            <translation type="unfinished">Probe {ordinal} bei {clock}: {mm:.1f} mm Läsion.</translation>
         </message>
         <message>
             <source>{hit}.</source>
-            <translation>{hit}.</translation>
+            <translation type="unfinished">{hit}.</translation>
         </message>
         <message>
             <source>Local anaesthetic at {clock}, {mm:.1f} mm short of pleura or capsule.</source>
-            <translation>Lokalanästhetikum bei {clock}, {mm:.1f} mm vor Pleura oder Kapsel.</translation>
+            <translation type="unfinished">Lokalanästhetikum bei {clock}, {mm:.1f} mm vor Pleura oder Kapsel.</translation>
         </message>
         <message>
             <source>Local anaesthetic at {clock}, {mm:.1f} mm beyond pleura or capsule.</source>
-            <translation>Lokalanästhetikum bei {clock}, {mm:.1f} mm hinter Pleura oder Kapsel.</translation>
+            <translation type="unfinished">Lokalanästhetikum bei {clock}, {mm:.1f} mm hinter Pleura oder Kapsel.</translation>
         </message>
         <message>
             <source>a script cannot stop at {stops}</source>
-            <translation>ein Skript kann nicht bei {stops} anhalten</translation>
+            <translation type="unfinished">ein Skript kann nicht bei {stops} anhalten</translation>
         </message>
         <message>
             <source>{throw} mm</source>
-            <translation>{throw} mm</translation>
+            <translation type="unfinished">{throw} mm</translation>
         </message>
         <message>
             <source>The notch holds {notch} mm and ends {tip} mm before the needle does</source>
-            <translation>Die Kerbe fasst {notch} mm und endet {tip} mm vor der Nadel</translation>
+            <translation type="unfinished">Die Kerbe fasst {notch} mm und endet {tip} mm vor der Nadel</translation>
         </message>
         <message>
             <source>Power and time of the generator</source>
-            <translation>Leistung und Zeit des Generators</translation>
+            <translation type="unfinished">Leistung und Zeit des Generators</translation>
         </message>
         <message>
             <source>{power} W, {minutes} min: {long} × {short} mm</source>
-            <translation>{power} W, {minutes} min: {long} × {short} mm</translation>
+            <translation type="unfinished">{power} W, {minutes} min: {long} × {short} mm</translation>
         </message>
         <message>
             <source>Held: {tool}</source>
-            <translation>In der Hand: {tool}</translation>
+            <translation type="unfinished">In der Hand: {tool}</translation>
         </message>
         <message>
             <source>Ablated</source>
-            <translation>Abladiert</translation>
+            <translation type="unfinished">Abladiert</translation>
         </message>
         <message>
             <source>All {n} electrodes are in place</source>
-            <translation>Alle {n} Elektroden liegen</translation>
+            <translation type="unfinished">Alle {n} Elektroden liegen</translation>
         </message>
         <message>
             <source>Electrode {n} of {of}</source>
-            <translation>Elektrode {n} von {of}</translation>
+            <translation type="unfinished">Elektrode {n} von {of}</translation>
         </message>
         <message>
             <source>Take the electrode (J)</source>
-            <translation>Elektrode nehmen (J)</translation>
+            <translation type="unfinished">Elektrode nehmen (J)</translation>
         </message>
         <message>
             <source>Leave electrode {n} here (J)</source>
-            <translation>Elektrode {n} hier lassen (J)</translation>
+            <translation type="unfinished">Elektrode {n} hier lassen (J)</translation>
         </message>
         <message>
             <source>Start the generator (J)</source>
-            <translation>Generator starten (J)</translation>
+            <translation type="unfinished">Generator starten (J)</translation>
         </message>
         <message>
             <source>Next step (J)</source>
-            <translation>Nächster Schritt (J)</translation>
+            <translation type="unfinished">Nächster Schritt (J)</translation>
         </message>
         <message>
             <source>Electrode {n}: {mm:.1f} mm from its place</source>
-            <translation>Elektrode {n}: {mm:.1f} mm neben ihrem Platz</translation>
+            <translation type="unfinished">Elektrode {n}: {mm:.1f} mm neben ihrem Platz</translation>
         </message>
         <message>
             <source>▲ {vessel} {mm:.1f} mm from the zone: it may be cooled there, which is not reckoned</source>
-            <translation>▲ {vessel} {mm:.1f} mm von der Zone: dort kann gekühlt werden, was nicht gerechnet ist</translation>
+            <translation type="unfinished">▲ {vessel} {mm:.1f} mm von der Zone: dort kann gekühlt werden, was nicht gerechnet ist</translation>
         </message>
         <message>
             <source>✖ the zone reaches {tissue}: {ml:.1f} ml of it</source>
-            <translation>✖ die Zone erreicht {tissue}: {ml:.1f} ml davon</translation>
+            <translation type="unfinished">✖ die Zone erreicht {tissue}: {ml:.1f} ml davon</translation>
         </message>
         <message>
             <source>{mark} {title}: least margin {mm:.1f} mm of {wanted:g}, lesion {share:.1f} %</source>
-            <translation>{mark} {title}: kleinster Abstand {mm:.1f} mm von {wanted:g}, Läsion {share:.1f} %</translation>
+            <translation type="unfinished">{mark} {title}: kleinster Abstand {mm:.1f} mm von {wanted:g}, Läsion {share:.1f} %</translation>
         </message>
         <message>
             <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
-            <translation>Nach dem Plan: in {depth:.0f} mm Tiefe anhalten für {mm:.0f} mm Läsion</translation>
+            <translation type="unfinished">Nach dem Plan: in {depth:.0f} mm Tiefe anhalten für {mm:.0f} mm Läsion</translation>
         </message>
         <message>
             <source>Fire the gun (Ctrl+J)</source>
-            <translation>Gerät auslösen (Ctrl+J)</translation>
+            <translation type="unfinished">Gerät auslösen (Ctrl+J)</translation>
         </message>
         <message>
             <source>The gun's needle runs ahead by its throw and brings back a core</source>
-            <translation>Die Nadel des Geräts schießt um ihren Hub voraus und bringt einen Zylinder zurück</translation>
+            <translation type="unfinished">Die Nadel des Geräts schießt um ihren Hub voraus und bringt einen Zylinder zurück</translation>
         </message>
         <message>
             <source>What follows in the usual order</source>
-            <translation>Was in der üblichen Reihenfolge kommt</translation>
+            <translation type="unfinished">Was in der üblichen Reihenfolge kommt</translation>
         </message>
         <message>
             <source>What may be done in its place</source>
@@ -24119,355 +24119,355 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>How far the gun's needle runs ahead of the outer needle's tip</source>
-            <translation>Wie weit die Nadel des Geräts vor die Spitze der Außennadel schießt</translation>
+            <translation type="unfinished">Wie weit die Nadel des Geräts vor die Spitze der Außennadel schießt</translation>
         </message>
         <message>
             <source>To which side the notch is open, as on a clock seen from the hub: 12 is the front</source>
-            <translation>Zu welcher Seite die Kerbe offen ist, wie auf einer Uhr vom Ansatz gesehen: 12 ist vorn</translation>
+            <translation type="unfinished">Zu welcher Seite die Kerbe offen ist, wie auf einer Uhr vom Ansatz gesehen: 12 ist vorn</translation>
         </message>
         <message>
             <source>Throw</source>
-            <translation>Hub</translation>
+            <translation type="unfinished">Hub</translation>
         </message>
         <message>
             <source>Notch</source>
-            <translation>Kerbe</translation>
+            <translation type="unfinished">Kerbe</translation>
         </message>
         <message>
             <source>{hour} o'clock</source>
-            <translation>{hour} Uhr</translation>
+            <translation type="unfinished">{hour} Uhr</translation>
         </message>
         <message>
             <source>Give local anaesthetic (J)</source>
-            <translation>Lokalanästhetikum geben (J)</translation>
+            <translation type="unfinished">Lokalanästhetikum geben (J)</translation>
         </message>
         <message>
             <source>Take the outer needle (J)</source>
-            <translation>Außennadel nehmen (J)</translation>
+            <translation type="unfinished">Außennadel nehmen (J)</translation>
         </message>
         <message>
             <source>Stylet out (J)</source>
-            <translation>Mandrin heraus (J)</translation>
+            <translation type="unfinished">Mandrin heraus (J)</translation>
         </message>
         <message>
             <source>Gun in (J)</source>
-            <translation>Gerät hinein (J)</translation>
+            <translation type="unfinished">Gerät hinein (J)</translation>
         </message>
         <message>
             <source>Gun out (J)</source>
-            <translation>Gerät heraus (J)</translation>
+            <translation type="unfinished">Gerät heraus (J)</translation>
         </message>
         <message>
             <source>Stylet in (J)</source>
-            <translation>Mandrin hinein (J)</translation>
+            <translation type="unfinished">Mandrin hinein (J)</translation>
         </message>
         <message>
             <source>Local anaesthetic given: {n}×</source>
-            <translation>Lokalanästhetikum gegeben: {n}×</translation>
+            <translation type="unfinished">Lokalanästhetikum gegeben: {n}×</translation>
         </message>
         <message>
             <source>✔ Sample {n}: {mm:.1f} mm of lesion</source>
-            <translation>✔ Probe {n}: {mm:.1f} mm Läsion</translation>
+            <translation type="unfinished">✔ Probe {n}: {mm:.1f} mm Läsion</translation>
         </message>
         <message>
             <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
-            <translation>✖ Probe {n}: {mm:.1f} mm Läsion, nötig sind {least:g} mm</translation>
+            <translation type="unfinished">✖ Probe {n}: {mm:.1f} mm Läsion, nötig sind {least:g} mm</translation>
         </message>
         <message>
             <source>entry {x:.1f},{y:.1f},{z:.1f}, {points:.0f} points of the planner</source>
-            <translation>Einstich {x:.1f},{y:.1f},{z:.1f}, {points:.0f} Punkte des Planers</translation>
+            <translation type="unfinished">Einstich {x:.1f},{y:.1f},{z:.1f}, {points:.0f} Punkte des Planers</translation>
         </message>
         <message>
             <source>  {line}</source>
-            <translation>  {line}</translation>
+            <translation type="unfinished">  {line}</translation>
         </message>
         <message>
             <source>no lung is labelled in this patient</source>
-            <translation>bei diesem Patienten ist keine Lunge markiert</translation>
+            <translation type="unfinished">bei diesem Patienten ist keine Lunge markiert</translation>
         </message>
         <message>
             <source>this path does not go through the lung</source>
-            <translation>dieser Weg führt nicht durch die Lunge</translation>
+            <translation type="unfinished">dieser Weg führt nicht durch die Lunge</translation>
         </message>
         <message>
             <source>a share of {share} of the chest is none</source>
-            <translation>ein Anteil {share} des Brustkorbs ist keiner</translation>
+            <translation type="unfinished">ein Anteil {share} des Brustkorbs ist keiner</translation>
         </message>
         <message>
             <source>blood {radius} mm about the needle's way is none</source>
-            <translation>Blut {radius} mm um den Nadelweg gibt es nicht</translation>
+            <translation type="unfinished">Blut {radius} mm um den Nadelweg gibt es nicht</translation>
         </message>
         <message>
             <source>gravity has no direction</source>
-            <translation>die Schwerkraft hat keine Richtung</translation>
+            <translation type="unfinished">die Schwerkraft hat keine Richtung</translation>
         </message>
         <message>
             <source>go on through the outer needle, and watch</source>
-            <translation>durch die Hohlnadel weitermachen und beobachten</translation>
+            <translation type="unfinished">durch die Hohlnadel weitermachen und beobachten</translation>
         </message>
         <message>
             <source>withdraw into the pleural space and aspirate</source>
-            <translation>in den Pleuraraum zurückziehen und aspirieren</translation>
+            <translation type="unfinished">in den Pleuraraum zurückziehen und aspirieren</translation>
         </message>
         <message>
             <source>turn the patient, puncture side down</source>
-            <translation>den Patienten drehen, Punktionsseite nach unten</translation>
+            <translation type="unfinished">den Patienten drehen, Punktionsseite nach unten</translation>
         </message>
         <message>
             <source>give oxygen</source>
-            <translation>Sauerstoff geben</translation>
+            <translation type="unfinished">Sauerstoff geben</translation>
         </message>
         <message>
             <source>place a chest drain</source>
-            <translation>eine Thoraxdrainage legen</translation>
+            <translation type="unfinished">eine Thoraxdrainage legen</translation>
         </message>
         <message>
             <source>stop and call for help</source>
-            <translation>abbrechen und Hilfe rufen</translation>
+            <translation type="unfinished">abbrechen und Hilfe rufen</translation>
         </message>
         <message>
             <source>pneumothorax of less than 20 mm, no symptoms</source>
-            <translation>Pneumothorax unter 20 mm, keine Symptome</translation>
+            <translation type="unfinished">Pneumothorax unter 20 mm, keine Symptome</translation>
         </message>
         <message>
             <source>pneumothorax of 20 mm or more</source>
-            <translation>Pneumothorax ab 20 mm</translation>
+            <translation type="unfinished">Pneumothorax ab 20 mm</translation>
         </message>
         <message>
             <source>pneumothorax of 30 mm or more, or one with a saturation below 92 %, or one that came back after aspiration</source>
-            <translation>Pneumothorax ab 30 mm, oder einer mit einer Sättigung unter 92 %, oder einer, der nach Aspiration wiederkam</translation>
+            <translation type="unfinished">Pneumothorax ab 30 mm, oder einer mit einer Sättigung unter 92 %, oder einer, der nach Aspiration wiederkam</translation>
         </message>
         <message>
             <source>blood about the needle's way, none coughed</source>
-            <translation>Blut um den Nadelweg, keines ausgehustet</translation>
+            <translation type="unfinished">Blut um den Nadelweg, keines ausgehustet</translation>
         </message>
         <message>
             <source>blood coughed, or more than 2 cm about the needle's way</source>
-            <translation>Blut ausgehustet, oder mehr als 2 cm um den Nadelweg</translation>
+            <translation type="unfinished">Blut ausgehustet, oder mehr als 2 cm um den Nadelweg</translation>
         </message>
         <message>
             <source>no cough</source>
-            <translation>kein Husten</translation>
+            <translation type="unfinished">kein Husten</translation>
         </message>
         <message>
             <source>coughs blood</source>
-            <translation>hustet Blut</translation>
+            <translation type="unfinished">hustet Blut</translation>
         </message>
         <message>
             <source>coughs</source>
-            <translation>hustet</translation>
+            <translation type="unfinished">hustet</translation>
         </message>
         <message>
             <source>Saturation {saturation} %, pulse {pulse}/min, pain {pain} of 10, {cough}</source>
-            <translation>Sättigung {saturation} %, Puls {pulse}/min, Schmerz {pain} von 10, {cough}</translation>
+            <translation type="unfinished">Sättigung {saturation} %, Puls {pulse}/min, Schmerz {pain} von 10, {cough}</translation>
         </message>
         <message>
             <source>lesion smaller than 4 cm</source>
-            <translation>Läsion unter 4 cm</translation>
+            <translation type="unfinished">Läsion unter 4 cm</translation>
         </message>
         <message>
             <source>lesion without contact to the pleura</source>
-            <translation>Läsion ohne Pleurakontakt</translation>
+            <translation type="unfinished">Läsion ohne Pleurakontakt</translation>
         </message>
         <message>
             <source>3 cm of lung or more on the way</source>
-            <translation>3 cm Lunge oder mehr auf dem Weg</translation>
+            <translation type="unfinished">3 cm Lunge oder mehr auf dem Weg</translation>
         </message>
         <message>
             <source>needle of 18 G or thicker</source>
-            <translation>Nadel von 18 G oder dicker</translation>
+            <translation type="unfinished">Nadel von 18 G oder dicker</translation>
         </message>
         <message>
             <source>pleura punctured more than once</source>
-            <translation>Pleura mehr als einmal punktiert</translation>
+            <translation type="unfinished">Pleura mehr als einmal punktiert</translation>
         </message>
         <message>
             <source>fissure crossed</source>
-            <translation>Fissur durchquert</translation>
+            <translation type="unfinished">Fissur durchquert</translation>
         </message>
         <message>
             <source>bulla crossed</source>
-            <translation>Bulla durchquert</translation>
+            <translation type="unfinished">Bulla durchquert</translation>
         </message>
         <message>
             <source>a case mix has {factors} shares of factors and {positions} of positions</source>
-            <translation>ein Patientengut hat {factors} Anteile von Faktoren und {positions} von Lagerungen</translation>
+            <translation type="unfinished">ein Patientengut hat {factors} Anteile von Faktoren und {positions} von Lagerungen</translation>
         </message>
         <message>
             <source>{share} is no share: it must lie between 0 and 1</source>
-            <translation>{share} ist kein Anteil: er muss zwischen 0 und 1 liegen</translation>
+            <translation type="unfinished">{share} ist kein Anteil: er muss zwischen 0 und 1 liegen</translation>
         </message>
         <message>
             <source>the shares of positions add up to {total:g}, not 1</source>
-            <translation>die Anteile der Lagerungen ergeben zusammen {total:g}, nicht 1</translation>
+            <translation type="unfinished">die Anteile der Lagerungen ergeben zusammen {total:g}, nicht 1</translation>
         </message>
         <message>
             <source>{name!r} is no factor; there are {names}</source>
-            <translation>{name!r} ist kein Faktor; es gibt {names}</translation>
+            <translation type="unfinished">{name!r} ist kein Faktor; es gibt {names}</translation>
         </message>
         <message>
             <source>lot {name} is {drawn!r}; it must lie between 0 and 1</source>
-            <translation>Los {name} ist {drawn!r}; es muss zwischen 0 und 1 liegen</translation>
+            <translation type="unfinished">Los {name} ist {drawn!r}; es muss zwischen 0 und 1 liegen</translation>
         </message>
         <message>
             <source>a complication of the attempt: a number is not finite</source>
-            <translation>eine Komplikation des Versuchs: eine Zahl ist nicht endlich</translation>
+            <translation type="unfinished">eine Komplikation des Versuchs: eine Zahl ist nicht endlich</translation>
         </message>
         <message>
             <source>no odds of this case mix give the published odds ratios and incidence</source>
-            <translation>keine Odds dieses Patientenguts ergeben die veröffentlichten Odds Ratios und die Häufigkeit</translation>
+            <translation type="unfinished">keine Odds dieses Patientenguts ergeben die veröffentlichten Odds Ratios und die Häufigkeit</translation>
         </message>
         <message>
             <source>no complication happened</source>
-            <translation>keine Komplikation ist eingetreten</translation>
+            <translation type="unfinished">keine Komplikation ist eingetreten</translation>
         </message>
         <message>
             <source>What the monitor shows, and what the patient says</source>
-            <translation>Was der Monitor zeigt und was der Patient sagt</translation>
+            <translation type="unfinished">Was der Monitor zeigt und was der Patient sagt</translation>
         </message>
         <message>
             <source>Something is wrong (Shift+J)</source>
-            <translation>Etwas stimmt nicht (Shift+J)</translation>
+            <translation type="unfinished">Etwas stimmt nicht (Shift+J)</translation>
         </message>
         <message>
             <source>Say it as soon as you see it: the time counts</source>
-            <translation>Sagen Sie es, sobald Sie es sehen: die Zeit zählt</translation>
+            <translation type="unfinished">Sagen Sie es, sobald Sie es sehen: die Zeit zählt</translation>
         </message>
         <message>
             <source>Do this (Ctrl+Shift+J)</source>
-            <translation>Das tun (Ctrl+Shift+J)</translation>
+            <translation type="unfinished">Das tun (Ctrl+Shift+J)</translation>
         </message>
         <message>
             <source>Do what is chosen here</source>
-            <translation>Tun, was hier gewählt ist</translation>
+            <translation type="unfinished">Tun, was hier gewählt ist</translation>
         </message>
         <message>
             <source>What is to be done</source>
-            <translation>Was zu tun ist</translation>
+            <translation type="unfinished">Was zu tun ist</translation>
         </message>
         <message>
             <source>What is to be done about a complication, by its size</source>
-            <translation>Was gegen eine Komplikation zu tun ist, nach ihrer Größe</translation>
+            <translation type="unfinished">Was gegen eine Komplikation zu tun ist, nach ihrer Größe</translation>
         </message>
         <message>
             <source>Patient</source>
-            <translation>Patient</translation>
+            <translation type="unfinished">Patient</translation>
         </message>
         <message>
             <source>electrodes {one} and {other} are at one place, {apart:.1f} mm apart: lay them at least {least:g} mm apart, or leave one out</source>
-            <translation>Elektroden {one} und {other} sind an einem Platz, {apart:.1f} mm auseinander: mindestens {least:g} mm auseinander legen, oder eine weglassen</translation>
+            <translation type="unfinished">Elektroden {one} und {other} sind an einem Platz, {apart:.1f} mm auseinander: mindestens {least:g} mm auseinander legen, oder eine weglassen</translation>
         </message>
         <message>
             <source>ablation: {error}</source>
-            <translation>Ablation: {error}</translation>
+            <translation type="unfinished">Ablation: {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode}: {error}</source>
-            <translation>Ablation: Elektrode {electrode}: {error}</translation>
+            <translation type="unfinished">Ablation: Elektrode {electrode}: {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}</source>
-            <translation>Ablation: Elektrode {electrode} kann mit {profile_name} nicht gesetzt werden: {reasons}</translation>
+            <translation type="unfinished">Ablation: Elektrode {electrode} kann mit {profile_name} nicht gesetzt werden: {reasons}</translation>
         </message>
         <message>
             <source>an ablated zone of {long:g} × {short:g} mm: both must be above 0</source>
-            <translation>eine Ablationszone von {long:g} × {short:g} mm: beides muss über 0 sein</translation>
+            <translation type="unfinished">eine Ablationszone von {long:g} × {short:g} mm: beides muss über 0 sein</translation>
         </message>
         <message>
             <source>an ablation of the record is none: {numbers}</source>
-            <translation>eine Ablation der Aufzeichnung ist keine: {numbers}</translation>
+            <translation type="unfinished">eine Ablation der Aufzeichnung ist keine: {numbers}</translation>
         </message>
         <message>
             <source>least {mm:.1f} mm</source>
-            <translation>kleinster {mm:.1f} mm</translation>
+            <translation type="unfinished">kleinster {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
-            <translation>Gestrichelt: geplante Zone; durchgezogen: abladierte Zone. Am Rand der Läsion: ○ Abstand wie verlangt, △ kleiner, ✕ nicht bedeckt</translation>
+            <translation type="unfinished">Gestrichelt: geplante Zone; durchgezogen: abladierte Zone. Am Rand der Läsion: ○ Abstand wie verlangt, △ kleiner, ✕ nicht bedeckt</translation>
         </message>
         <message>
             <source>grid line {line}: there are 1 to {lines}</source>
-            <translation>Rasterlinie {line}: es gibt 1 bis {lines}</translation>
+            <translation type="unfinished">Rasterlinie {line}: es gibt 1 bis {lines}</translation>
         </message>
         <message>
             <source>the grid does not reach there</source>
-            <translation>so weit reicht das Raster nicht</translation>
+            <translation type="unfinished">so weit reicht das Raster nicht</translation>
         </message>
         <message>
             <source>there is no skin under the grid {mm:.0f} mm beside its middle</source>
-            <translation>{mm:.0f} mm neben der Mitte ist keine Haut unter dem Raster</translation>
+            <translation type="unfinished">{mm:.0f} mm neben der Mitte ist keine Haut unter dem Raster</translation>
         </message>
         <message>
             <source>there is no skin under the grid's middle line</source>
-            <translation>unter der mittleren Linie des Rasters ist keine Haut</translation>
+            <translation type="unfinished">unter der mittleren Linie des Rasters ist keine Haut</translation>
         </message>
         <message>
             <source>entry marked at table {table:.1f} mm, line {line} {offset:+.1f} mm: {error:.1f} mm on the skin from the planned entry</source>
-            <translation>Einstich angezeichnet bei Tisch {table:.1f} mm, Linie {line} {offset:+.1f} mm: auf der Haut {error:.1f} mm vom geplanten Einstich</translation>
+            <translation type="unfinished">Einstich angezeichnet bei Tisch {table:.1f} mm, Linie {line} {offset:+.1f} mm: auf der Haut {error:.1f} mm vom geplanten Einstich</translation>
         </message>
         <message>
             <source>no entry was marked with the grid</source>
-            <translation>mit dem Raster wurde kein Einstich angezeichnet</translation>
+            <translation type="unfinished">mit dem Raster wurde kein Einstich angezeichnet</translation>
         </message>
         <message>
             <source>no control scan says a dose of the hand: the exercise does not ask for it</source>
-            <translation>keine Kontrollaufnahme nennt eine Handdosis: die Übung fragt nicht danach</translation>
+            <translation type="unfinished">keine Kontrollaufnahme nennt eine Handdosis: die Übung fragt nicht danach</translation>
         </message>
         <message>
             <source>Leave the room</source>
-            <translation>Raum verlassen</translation>
+            <translation type="unfinished">Raum verlassen</translation>
         </message>
         <message>
             <source>Current</source>
-            <translation>Strom</translation>
+            <translation type="unfinished">Strom</translation>
         </message>
         <message>
             <source>Gantry</source>
-            <translation>Gantry</translation>
+            <translation type="unfinished">Gantry</translation>
         </message>
         <message>
             <source>{ma} mA</source>
-            <translation>{ma} mA</translation>
+            <translation type="unfinished">{ma} mA</translation>
         </message>
         <message>
             <source>Leaving and coming back take {seconds:g} s of the attempt; who stays saves them, and his hand gets its share of the scattered radiation (a teaching estimate)</source>
-            <translation>Hinausgehen und Zurückkommen dauern {seconds:g} s des Versuchs; wer bleibt, spart sie, und seine Hand bekommt ihren Teil der Streustrahlung (ein Schätzwert für die Lehre)</translation>
+            <translation type="unfinished">Hinausgehen und Zurückkommen dauern {seconds:g} s des Versuchs; wer bleibt, spart sie, und seine Hand bekommt ihren Teil der Streustrahlung (ein Schätzwert für die Lehre)</translation>
         </message>
         <message>
             <source>leaving</source>
-            <translation>geht hinaus</translation>
+            <translation type="unfinished">geht hinaus</translation>
         </message>
         <message>
             <source>coming back</source>
-            <translation>kommt zurück</translation>
+            <translation type="unfinished">kommt zurück</translation>
         </message>
         <message>
             <source>{where}: {left:.0f} s</source>
-            <translation>{where}: {left:.0f} s</translation>
+            <translation type="unfinished">{where}: {left:.0f} s</translation>
         </message>
         <message>
             <source>Tube current</source>
-            <translation>Röhrenstrom</translation>
+            <translation type="unfinished">Röhrenstrom</translation>
         </message>
         <message>
             <source>Noise of the picture goes as one over the square root of the current, the dose goes as the current</source>
-            <translation>Das Rauschen des Bildes geht wie eins durch die Wurzel des Stroms, die Dosis wie der Strom</translation>
+            <translation type="unfinished">Das Rauschen des Bildes geht wie eins durch die Wurzel des Stroms, die Dosis wie der Strom</translation>
         </message>
         <message>
             <source>Gantry tilt</source>
-            <translation>Gantrykippung</translation>
+            <translation type="unfinished">Gantrykippung</translation>
         </message>
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
-            <translation>Kippung der Gantry: + neigt die Vorderseite der Schichten zum Kopf. Schichten, und was von der Nadel in ihnen liegt, gehen mit</translation>
+            <translation type="unfinished">Kippung der Gantry: + neigt die Vorderseite der Schichten zum Kopf. Schichten, und was von der Nadel in ihnen liegt, gehen mit</translation>
         </message>
         <message>
             <source>{path} is no table of a sweep, and no part of one lies beside it: choose what `acus cohort sweep --out` wrote, or is writing</source>
             <translation type="unfinished">{path} ist keine Tabelle einer Reihe, und kein Teil davon liegt daneben: wählen Sie, was `acus cohort sweep --out` geschrieben hat oder schreibt</translation>
         </message>
         <message>
-            <source>{path} cannot be read as a table of a sweep: {reason}</source>
-            <translation type="unfinished">{path} lässt sich nicht als Tabelle einer Reihe lesen: {reason}</translation>
+            <source>{path} is no table of a sweep, or is damaged: choose what `acus cohort sweep --out` wrote, or is writing</source>
+            <translation type="unfinished">{path} ist keine Tabelle einer Reihe oder ist beschädigt: wählen Sie, was `acus cohort sweep --out` geschrieben hat oder gerade schreibt</translation>
         </message>
         <message>
             <source>{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one</source>
@@ -24479,7 +24479,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>{path}: `acus {command}` is there already; rename it</source>
-            <translation>{path}: `acus {command}` gibt es schon; geben Sie dem Befehl einen anderen Namen</translation>
+            <translation type="unfinished">{path}: `acus {command}` gibt es schon; geben Sie dem Befehl einen anderen Namen</translation>
         </message>
         <message>
             <source>checklist: consent and coagulation</source>

@@ -1549,7 +1549,7 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>device {name} is of kind {kind}, whose loops and cables no URDF can hold; use `acus urdf mjcf`</source>
-            <translation>l’appareil {name} est du type {kind}, dont les boucles et les câbles ne tiennent dans aucun URDF ; utilisez `acus urdf mjcf`</translation>
+            <translation type="unfinished">l’appareil {name} est du type {kind}, dont les boucles et les câbles ne tiennent dans aucun URDF ; utilisez `acus urdf mjcf`</translation>
         </message>
         <message>
             <source>--origin {origin!r}; valid names: {names}</source>
@@ -2949,23 +2949,23 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>tube_current names a current twice</source>
-            <translation>tube_current nomme deux fois un courant</translation>
+            <translation type="unfinished">tube_current nomme deux fois un courant</translation>
         </message>
         <message>
             <source>a tube current of {current} mA: the exercise offers {currents} mA</source>
-            <translation>un courant de tube de {current} mA : l’exercice propose {currents} mA</translation>
+            <translation type="unfinished">un courant de tube de {current} mA : l’exercice propose {currents} mA</translation>
         </message>
         <message>
             <source>a tube current of {current:g} mA: the exercise leaves no choice of it</source>
-            <translation>un courant de tube de {current:g} mA : l’exercice n’en laisse pas le choix</translation>
+            <translation type="unfinished">un courant de tube de {current:g} mA : l’exercice n’en laisse pas le choix</translation>
         </message>
         <message>
             <source>the exercise has no time for leaving the room</source>
-            <translation>l’exercice ne prévoit pas de temps pour quitter la salle</translation>
+            <translation type="unfinished">l’exercice ne prévoit pas de temps pour quitter la salle</translation>
         </message>
         <message>
             <source>a gantry tilted by {tilt_deg:g}°: the exercise keeps it straight</source>
-            <translation>un statif incliné de {tilt_deg:g}° : l’exercice le garde droit</translation>
+            <translation type="unfinished">un statif incliné de {tilt_deg:g}° : l’exercice le garde droit</translation>
         </message>
         <message>
             <source>no exercise {name_or_path!r}; there are {known_ids}, or give the path of a .yaml file</source>
@@ -3089,23 +3089,23 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>tolerances: {metric} is of a step that the exercise does not ask for: add {part} to procedure, or leave it out</source>
-            <translation>tolerances : {metric} relève d'une étape que l'exercice ne demande pas : ajoutez {part} à procedure, ou retirez-le</translation>
+            <translation type="unfinished">tolerances : {metric} relève d'une étape que l'exercice ne demande pas : ajoutez {part} à procedure, ou retirez-le</translation>
         </message>
         <message>
             <source>procedure: what a step meets is looked up in the patient: use tissue: field</source>
-            <translation>procedure : ce qu'une étape rencontre se lit dans le patient : utilisez tissue: field</translation>
+            <translation type="unfinished">procedure : ce qu'une étape rencontre se lit dans le patient : utilisez tissue: field</translation>
         </message>
         <message>
             <source>procedure: electrodes lie about a path that the file names: give plan entry_mm and target_mm</source>
-            <translation>procedure : les électrodes sont autour d’un trajet que le fichier nomme : donnez plan avec entry_mm et target_mm</translation>
+            <translation type="unfinished">procedure : les électrodes sont autour d’un trajet que le fichier nomme : donnez plan avec entry_mm et target_mm</translation>
         </message>
         <message>
             <source>procedure: a tool that touches targets takes no steps</source>
-            <translation>procedure : un outil qui touche des cibles ne connaît pas d'étapes</translation>
+            <translation type="unfinished">procedure : un outil qui touche des cibles ne connaît pas d'étapes</translation>
         </message>
         <message>
             <source>procedure: complications are seen in control scans, and live pictures are of the patient before: use guidance.mode: control_ct</source>
-            <translation>procedure : les complications se voient sur les scanners de contrôle, et les images en direct montrent le patient d’avant : utilisez guidance.mode: control_ct</translation>
+            <translation type="unfinished">procedure : les complications se voient sur les scanners de contrôle, et les images en direct montrent le patient d’avant : utilisez guidance.mode: control_ct</translation>
         </message>
         <message>
             <source>plan {{own: true}} of a CT folder needs target_mm: [x, y, z]</source>
@@ -3881,7 +3881,7 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>retrieve is web: say where by web: {{url: https://…}}, or use get</source>
-            <translation>retrieve vaut web : indiquez où par web : {{url: https://…}}, ou utilisez get</translation>
+            <translation type="unfinished">retrieve vaut web : indiquez où par web : {{url: https://…}}, ou utilisez get</translation>
         </message>
         <message>
             <source>no PACS is configured; acus pacs add NAME --host HOST --port PORT --title AE writes {pacs_path}</source>
@@ -4301,15 +4301,15 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>the gantry's height {pivot_mm} is not a number</source>
-            <translation>la hauteur du statif {pivot_mm} n’est pas un nombre</translation>
+            <translation type="unfinished">la hauteur du statif {pivot_mm} n’est pas un nombre</translation>
         </message>
         <message>
             <source>slices of {slice_mm:g} mm every {interval_mm:g} mm leave a gap of {gap:g} mm: 0 mm is the least, and {widest:g} mm the farthest from slice to slice</source>
-            <translation>des coupes de {slice_mm:g} mm tous les {interval_mm:g} mm laissent un intervalle de {gap:g} mm : 0 mm est le minimum, et {widest:g} mm le plus loin de coupe à coupe</translation>
+            <translation type="unfinished">des coupes de {slice_mm:g} mm tous les {interval_mm:g} mm laissent un intervalle de {gap:g} mm : 0 mm est le minimum, et {widest:g} mm le plus loin de coupe à coupe</translation>
         </message>
         <message>
             <source>a gantry tilted by {tilt_deg:g}°: -{most:g}° to {most:g}° are valid</source>
-            <translation>un statif incliné de {tilt_deg:g}° : de -{most:g}° à {most:g}° sont valides</translation>
+            <translation type="unfinished">un statif incliné de {tilt_deg:g}° : de -{most:g}° à {most:g}° sont valides</translation>
         </message>
         <message>
             <source>the needle's hub and tip are both at {tip_mm}</source>
@@ -4321,7 +4321,7 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>a bore of radius {inner} mm does not fit a needle of radius {radius_mm} mm</source>
-            <translation>un alésage de rayon {inner} mm ne convient pas à une aiguille de rayon {radius_mm} mm</translation>
+            <translation type="unfinished">un alésage de rayon {inner} mm ne convient pas à une aiguille de rayon {radius_mm} mm</translation>
         </message>
         <message>
             <source>direction cosines not of length one: taken as they are written</source>
@@ -5677,7 +5677,7 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>the attempt never got that far</source>
-            <translation>l’essai n’est jamais allé jusque-là</translation>
+            <translation type="unfinished">l’essai n’est jamais allé jusque-là</translation>
         </message>
         <message>
             <source>the depth of the tip was not measured in the body</source>
@@ -5829,7 +5829,7 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>a dose of the hand of {dose} µSv: it must be a number, not negative</source>
-            <translation>une dose à la main de {dose} µSv : ce doit être un nombre, non négatif</translation>
+            <translation type="unfinished">une dose à la main de {dose} µSv : ce doit être un nombre, non négatif</translation>
         </message>
         <message>
             <source>no metric {name!r}; there are {metrics}</source>
@@ -5913,11 +5913,11 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>the exercise asks for no steps of a procedure</source>
-            <translation>l'exercice ne demande aucune étape d'intervention</translation>
+            <translation type="unfinished">l'exercice ne demande aucune étape d'intervention</translation>
         </message>
         <message>
             <source>no complication can happen in this exercise</source>
-            <translation>aucune complication ne peut survenir dans cet exercice</translation>
+            <translation type="unfinished">aucune complication ne peut survenir dans cet exercice</translation>
         </message>
         <message>
             <source>nothing was to be touched</source>
@@ -6381,39 +6381,39 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>{told}; {chosen}</source>
-            <translation>{told} ; {chosen}</translation>
+            <translation type="unfinished">{told} ; {chosen}</translation>
         </message>
         <message>
             <source>every {mm:g} mm</source>
-            <translation>tous les {mm:g} mm</translation>
+            <translation type="unfinished">tous les {mm:g} mm</translation>
         </message>
         <message>
             <source>gantry tilted by {deg:g}°</source>
-            <translation>statif incliné de {deg:g}°</translation>
+            <translation type="unfinished">statif incliné de {deg:g}°</translation>
         </message>
         <message>
             <source>{ma:g} mA</source>
-            <translation>{ma:g} mA</translation>
+            <translation type="unfinished">{ma:g} mA</translation>
         </message>
         <message>
             <source>stylet out</source>
-            <translation>mandrin retiré</translation>
+            <translation type="unfinished">mandrin retiré</translation>
         </message>
         <message>
             <source>out of the room</source>
-            <translation>hors de la salle</translation>
+            <translation type="unfinished">hors de la salle</translation>
         </message>
         <message>
             <source>hand {usv:.1f} µSv (teaching estimate)</source>
-            <translation>main {usv:.1f} µSv (estimation pour l’enseignement)</translation>
+            <translation type="unfinished">main {usv:.1f} µSv (estimation pour l’enseignement)</translation>
         </message>
         <message>
             <source>shows the shaft, the tip lies in the gap between two slices</source>
-            <translation>montre la tige, la pointe se trouve dans l’intervalle entre deux coupes</translation>
+            <translation type="unfinished">montre la tige, la pointe se trouve dans l’intervalle entre deux coupes</translation>
         </message>
         <message>
             <source>you are out of the room for a control scan: back in {left:.0f} s</source>
-            <translation>vous êtes hors de la salle pour un contrôle : de retour dans {left:.0f} s</translation>
+            <translation type="unfinished">vous êtes hors de la salle pour un contrôle : de retour dans {left:.0f} s</translation>
         </message>
         <message>
             <source>no control scan: the needle's depth is not measured now, so that a picture would be a guess; nothing was counted. Let both cameras see the marker and press again</source>
@@ -6981,7 +6981,7 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>no step of a procedure is possible now: begin an attempt at an exercise that asks for it</source>
-            <translation>aucune étape d'intervention n'est possible maintenant : commencez un essai d'un exercice qui en demande</translation>
+            <translation type="unfinished">aucune étape d'intervention n'est possible maintenant : commencez un essai d'un exercice qui en demande</translation>
         </message>
         <message>
             <source>no attempt has begun</source>
@@ -7165,15 +7165,15 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
         </message>
         <message>
             <source>the student leaves the room</source>
-            <translation>l’étudiant quitte la salle</translation>
+            <translation type="unfinished">l’étudiant quitte la salle</translation>
         </message>
         <message>
             <source>the student is back at the patient</source>
-            <translation>l’étudiant est de retour auprès du patient</translation>
+            <translation type="unfinished">l’étudiant est de retour auprès du patient</translation>
         </message>
         <message>
             <source>no complication can be answered now: begin an attempt at an exercise in which some can happen</source>
-            <translation>aucune complication ne peut être traitée maintenant : commencez un essai d’un exercice où il peut en survenir</translation>
+            <translation type="unfinished">aucune complication ne peut être traitée maintenant : commencez un essai d’un exercice où il peut en survenir</translation>
         </message>
         <message>
             <source>nobody can take the needle over while {running_attempt_state}: no attempt is running</source>
@@ -10136,79 +10136,79 @@ part</translation>
         </message>
         <message>
             <source>{label}: {figure}</source>
-            <translation>{label} : {figure}</translation>
+            <translation type="unfinished">{label} : {figure}</translation>
         </message>
         <message>
             <source>Pleura crossed</source>
-            <translation>Plèvre traversée</translation>
+            <translation type="unfinished">Plèvre traversée</translation>
         </message>
         <message>
             <source>Fissures crossed</source>
-            <translation>Scissures traversées</translation>
+            <translation type="unfinished">Scissures traversées</translation>
         </message>
         <message>
             <source>Aerated lung</source>
-            <translation>Poumon aéré</translation>
+            <translation type="unfinished">Poumon aéré</translation>
         </message>
         <message>
             <source>Of it emphysema</source>
-            <translation>Dont emphysème</translation>
+            <translation type="unfinished">Dont emphysème</translation>
         </message>
         <message>
             <source>Rib below, upper border</source>
-            <translation>Côte inférieure, bord supérieur</translation>
+            <translation type="unfinished">Côte inférieure, bord supérieur</translation>
         </message>
         <message>
             <source>Rib above, lower border</source>
-            <translation>Côte supérieure, bord inférieur</translation>
+            <translation type="unfinished">Côte supérieure, bord inférieur</translation>
         </message>
         <message>
             <source>Intercostal vessels</source>
-            <translation>Vaisseaux intercostaux</translation>
+            <translation type="unfinished">Vaisseaux intercostaux</translation>
         </message>
         <message>
             <source>Mid-line of the spine</source>
-            <translation>Ligne médiane du rachis</translation>
+            <translation type="unfinished">Ligne médiane du rachis</translation>
         </message>
         <message>
             <source>Rib protects the artery</source>
-            <translation>La côte protège l’artère</translation>
+            <translation type="unfinished">La côte protège l’artère</translation>
         </message>
         <message>
             <source>Vessels from 3 mm</source>
-            <translation>Vaisseaux dès 3 mm</translation>
+            <translation type="unfinished">Vaisseaux dès 3 mm</translation>
         </message>
         <message>
             <source>Bronchi from 3 mm</source>
-            <translation>Bronches dès 3 mm</translation>
+            <translation type="unfinished">Bronches dès 3 mm</translation>
         </message>
         <message>
             <source>not known</source>
-            <translation>inconnu</translation>
+            <translation type="unfinished">inconnu</translation>
         </message>
         <message>
             <source>{angle:.0f}° at {depth:.0f} mm</source>
-            <translation>{angle:.0f}° à {depth:.0f} mm</translation>
+            <translation type="unfinished">{angle:.0f}° à {depth:.0f} mm</translation>
         </message>
         <message>
             <source>at {depth:.0f} mm</source>
-            <translation>à {depth:.0f} mm</translation>
+            <translation type="unfinished">à {depth:.0f} mm</translation>
         </message>
         <message>
             <source>{count} ({places})</source>
-            <translation>{count} ({places})</translation>
+            <translation type="unfinished">{count} ({places})</translation>
         </message>
         <message>
             <source>{mm:.0f} mm</source>
-            <translation>{mm:.0f} mm</translation>
+            <translation type="unfinished">{mm:.0f} mm</translation>
         </message>
         <message>
             <source>{mm:.0f} mm or more</source>
-            <translation>{mm:.0f} mm ou plus</translation>
+            <translation type="unfinished">{mm:.0f} mm ou plus</translation>
         </message>
         <message>
             <source>met</source>
-            <translation>touchée</translation>
+            <translation type="unfinished">touchée</translation>
         </message>
         <message>
             <source>yes</source>
@@ -10216,15 +10216,15 @@ part</translation>
         </message>
         <message>
             <source>no: within {mm:.0f} cm of the spine</source>
-            <translation>non : à moins de {mm:.0f} cm du rachis</translation>
+            <translation type="unfinished">non : à moins de {mm:.0f} cm du rachis</translation>
         </message>
         <message>
             <source>{name} of {wide:.1f} mm met at {depth:.0f} mm</source>
-            <translation>{name} de {wide:.1f} mm rencontré à {depth:.0f} mm</translation>
+            <translation type="unfinished">{name} de {wide:.1f} mm rencontré à {depth:.0f} mm</translation>
         </message>
         <message>
             <source>{name} of {wide:.1f} mm, {away:.1f} mm off at {depth:.0f} mm</source>
-            <translation>{name} de {wide:.1f} mm, à {away:.1f} mm, à {depth:.0f} mm de profondeur</translation>
+            <translation type="unfinished">{name} de {wide:.1f} mm, à {away:.1f} mm, à {depth:.0f} mm de profondeur</translation>
         </message>
         <message>
             <source>everything</source>
@@ -10440,39 +10440,39 @@ part</translation>
         </message>
         <message>
             <source>it helps, but something else is called for</source>
-            <translation>cela aide, mais autre chose est indiqué</translation>
+            <translation type="unfinished">cela aide, mais autre chose est indiqué</translation>
         </message>
         <message>
             <source>wrong</source>
-            <translation>faux</translation>
+            <translation type="unfinished">faux</translation>
         </message>
         <message>
             <source>there is no complication</source>
-            <translation>il n’y a pas de complication</translation>
+            <translation type="unfinished">il n’y a pas de complication</translation>
         </message>
         <message>
             <source>a pneumothorax begins</source>
-            <translation>un pneumothorax débute</translation>
+            <translation type="unfinished">un pneumothorax débute</translation>
         </message>
         <message>
             <source>the lung bleeds</source>
-            <translation>le poumon saigne</translation>
+            <translation type="unfinished">le poumon saigne</translation>
         </message>
         <message>
             <source>you say that something is wrong</source>
-            <translation>vous dites que quelque chose ne va pas</translation>
+            <translation type="unfinished">vous dites que quelque chose ne va pas</translation>
         </message>
         <message>
             <source>{answer}: {verdict}</source>
-            <translation>{answer} : {verdict}</translation>
+            <translation type="unfinished">{answer} : {verdict}</translation>
         </message>
         <message>
             <source>{answer} ({row})</source>
-            <translation>{answer} ({row})</translation>
+            <translation type="unfinished">{answer} ({row})</translation>
         </message>
         <message>
             <source>odds of a pneumothorax</source>
-            <translation>cote d’un pneumothorax</translation>
+            <translation type="unfinished">cote d’un pneumothorax</translation>
         </message>
         <message>
             <source>Latency of the {name} camera</source>
@@ -11694,35 +11694,35 @@ part</translation>
         </message>
         <message>
             <source>right upper lobe</source>
-            <translation>lobe supérieur droit</translation>
+            <translation type="unfinished">lobe supérieur droit</translation>
         </message>
         <message>
             <source>right middle lobe</source>
-            <translation>lobe moyen droit</translation>
+            <translation type="unfinished">lobe moyen droit</translation>
         </message>
         <message>
             <source>right lower lobe</source>
-            <translation>lobe inférieur droit</translation>
+            <translation type="unfinished">lobe inférieur droit</translation>
         </message>
         <message>
             <source>left upper lobe</source>
-            <translation>lobe supérieur gauche</translation>
+            <translation type="unfinished">lobe supérieur gauche</translation>
         </message>
         <message>
             <source>left lower lobe</source>
-            <translation>lobe inférieur gauche</translation>
+            <translation type="unfinished">lobe inférieur gauche</translation>
         </message>
         <message>
             <source>emphysema</source>
-            <translation>emphysème</translation>
+            <translation type="unfinished">emphysème</translation>
         </message>
         <message>
             <source>intercostal artery</source>
-            <translation>artère intercostale</translation>
+            <translation type="unfinished">artère intercostale</translation>
         </message>
         <message>
             <source>intercostal vein</source>
-            <translation>veine intercostale</translation>
+            <translation type="unfinished">veine intercostale</translation>
         </message>
         <message>
             <source>rib</source>
@@ -11815,7 +11815,7 @@ part</translation>
         </message>
         <message>
             <source>◆ tip in a gap</source>
-            <translation>◆ pointe dans un intervalle</translation>
+            <translation type="unfinished">◆ pointe dans un intervalle</translation>
         </message>
         <message>
             <source>▲ shaft only</source>
@@ -11871,7 +11871,7 @@ part</translation>
         </message>
         <message>
             <source>What happened to the patient</source>
-            <translation>Ce qui est arrivé au patient</translation>
+            <translation type="unfinished">Ce qui est arrivé au patient</translation>
         </message>
         <message>
             <source>Next: {title}</source>
@@ -12100,7 +12100,7 @@ part</translation>
         </message>
         <message>
             <source>Beside it</source>
-            <translation>À côté</translation>
+            <translation type="unfinished">À côté</translation>
         </message>
         <message>
             <source>Aligned</source>
@@ -12222,7 +12222,7 @@ Lettres : directions du patient
         </message>
         <message>
             <source>· {what}, at {when}</source>
-            <translation>· {what}, à {when}</translation>
+            <translation type="unfinished">· {what}, à {when}</translation>
         </message>
         <message>
             <source>real robot</source>
@@ -12406,7 +12406,7 @@ Lettres : directions du patient
         </message>
         <message>
             <source>{n} of {of} samples suffice for a diagnosis; the best holds {mm:.1f} mm of lesion.</source>
-            <translation>{n} prélèvements sur {of} suffisent au diagnostic ; le meilleur contient {mm:.1f} mm de lésion.</translation>
+            <translation type="unfinished">{n} prélèvements sur {of} suffisent au diagnostic ; le meilleur contient {mm:.1f} mm de lésion.</translation>
         </message>
         <message>
             <source>to the patient's left</source>
@@ -13314,11 +13314,11 @@ Lettres : directions du patient
         </message>
         <message>
             <source>The lesion's surface unrolled: margin in mm; hatched where less than wanted</source>
-            <translation>La surface de la lésion déroulée : marge en mm ; hachurée où elle est moindre que voulue</translation>
+            <translation type="unfinished">La surface de la lésion déroulée : marge en mm ; hachurée où elle est moindre que voulue</translation>
         </message>
         <message>
             <source>&lt;0</source>
-            <translation>&lt;0</translation>
+            <translation type="unfinished">&lt;0</translation>
         </message>
         <message>
             <source>front</source>
@@ -13330,55 +13330,55 @@ Lettres : directions du patient
         </message>
         <message>
             <source>Ablation: planned against reached</source>
-            <translation>Ablation : prévu et atteint</translation>
+            <translation type="unfinished">Ablation : prévu et atteint</translation>
         </message>
         <message>
             <source>Margin planned [mm]</source>
-            <translation>Marge prévue [mm]</translation>
+            <translation type="unfinished">Marge prévue [mm]</translation>
         </message>
         <message>
             <source>Margin reached [mm]</source>
-            <translation>Marge atteinte [mm]</translation>
+            <translation type="unfinished">Marge atteinte [mm]</translation>
         </message>
         <message>
             <source>Ablation</source>
-            <translation>Ablation</translation>
+            <translation type="unfinished">Ablation</translation>
         </message>
         <message>
             <source>Planned</source>
-            <translation>Prévu</translation>
+            <translation type="unfinished">Prévu</translation>
         </message>
         <message>
             <source>Reached</source>
-            <translation>Atteint</translation>
+            <translation type="unfinished">Atteint</translation>
         </message>
         <message>
             <source>▲ Zones ex vivo: without blood, larger than in a patient</source>
-            <translation>▲ Zones ex vivo : sans sang, plus grandes que chez un patient</translation>
+            <translation type="unfinished">▲ Zones ex vivo : sans sang, plus grandes que chez un patient</translation>
         </message>
         <message>
             <source>Least margin (wanted {mm:g} mm)</source>
-            <translation>Marge minimale (voulue {mm:g} mm)</translation>
+            <translation type="unfinished">Marge minimale (voulue {mm:g} mm)</translation>
         </message>
         <message>
             <source>Lesion ablated</source>
-            <translation>Lésion détruite</translation>
+            <translation type="unfinished">Lésion détruite</translation>
         </message>
         <message>
             <source>{share:.1f} %</source>
-            <translation>{share:.1f} %</translation>
+            <translation type="unfinished">{share:.1f} %</translation>
         </message>
         <message>
             <source>Electrode {n}, off its place</source>
-            <translation>Électrode {n}, écart de sa place</translation>
+            <translation type="unfinished">Électrode {n}, écart de sa place</translation>
         </message>
         <message>
             <source>{power:g} W, {minutes:g} min</source>
-            <translation>{power:g} W, {minutes:g} min</translation>
+            <translation type="unfinished">{power:g} W, {minutes:g} min</translation>
         </message>
         <message>
             <source>Generator</source>
-            <translation>Générateur</translation>
+            <translation type="unfinished">Générateur</translation>
         </message>
         <message>
             <source>head</source>
@@ -13928,7 +13928,7 @@ hors du plan {c:+.1f}° (trajectoire {d:+.1f}°)</translation>
         </message>
         <message>
             <source>Out of the room: {s:.0f} s</source>
-            <translation>Hors de la salle : {s:.0f} s</translation>
+            <translation type="unfinished">Hors de la salle : {s:.0f} s</translation>
         </message>
         <message>
             <source>Arm the robot and begin recording (F5)</source>
@@ -14192,7 +14192,7 @@ réglable</translation>
         </message>
         <message>
             <source>Scans: {n} · {dose:.1f} mGy·cm · hand {hand:.0f} µSv ({estimate})</source>
-            <translation>Contrôles : {n} · {dose:.1f} mGy·cm · main {hand:.0f} µSv ({estimate})</translation>
+            <translation type="unfinished">Contrôles : {n} · {dose:.1f} mGy·cm · main {hand:.0f} µSv ({estimate})</translation>
         </message>
         <message>
             <source>Middle of the scan along the patient (z of LPS): + is headwards</source>
@@ -14228,11 +14228,11 @@ réglable</translation>
         </message>
         <message>
             <source>Mark the entry</source>
-            <translation>Marquer l’entrée</translation>
+            <translation type="unfinished">Marquer l’entrée</translation>
         </message>
         <message>
             <source>Point the needle</source>
-            <translation>Orienter l’aiguille</translation>
+            <translation type="unfinished">Orienter l’aiguille</translation>
         </message>
         <message>
             <source>Table</source>
@@ -14240,71 +14240,71 @@ réglable</translation>
         </message>
         <message>
             <source>Table position at which the laser meets the entry (z)</source>
-            <translation>Position de la table à laquelle le laser rencontre l’entrée (z)</translation>
+            <translation type="unfinished">Position de la table à laquelle le laser rencontre l’entrée (z)</translation>
         </message>
         <message>
             <source>Grid line</source>
-            <translation>Ligne de la grille</translation>
+            <translation type="unfinished">Ligne de la grille</translation>
         </message>
         <message>
             <source>From the patient's right; each fifth is thick</source>
-            <translation>Depuis la droite du patient ; une sur cinq est épaisse</translation>
+            <translation type="unfinished">Depuis la droite du patient ; une sur cinq est épaisse</translation>
         </message>
         <message>
             <source>Along the skin, + towards the next number</source>
-            <translation>Le long de la peau, + vers le numéro suivant</translation>
+            <translation type="unfinished">Le long de la peau, + vers le numéro suivant</translation>
         </message>
         <message>
             <source>Makes this place the entry: the patient is placed so that it lies on the fulcrum; how far it is from the entry that you planned is scored</source>
-            <translation>Fait de cet endroit l’entrée : le patient est placé de sorte qu’il se trouve sur le pivot ; sa distance à l’entrée que vous avez planifiée est notée</translation>
+            <translation type="unfinished">Fait de cet endroit l’entrée : le patient est placé de sorte qu’il se trouve sur le pivot ; sa distance à l’entrée que vous avez planifiée est notée</translation>
         </message>
         <message>
             <source>In the slice</source>
-            <translation>Dans la coupe</translation>
+            <translation type="unfinished">Dans la coupe</translation>
         </message>
         <message>
             <source>From straight down, + towards higher numbers</source>
-            <translation>Depuis la verticale, + vers les numéros plus grands</translation>
+            <translation type="unfinished">Depuis la verticale, + vers les numéros plus grands</translation>
         </message>
         <message>
             <source>Out of it</source>
-            <translation>Hors d’elle</translation>
+            <translation type="unfinished">Hors d’elle</translation>
         </message>
         <message>
             <source>Cranio-caudal: + towards the head</source>
-            <translation>Crânio-caudal : + vers la tête</translation>
+            <translation type="unfinished">Crânio-caudal : + vers la tête</translation>
         </message>
         <message>
             <source>°</source>
-            <translation>°</translation>
+            <translation type="unfinished">°</translation>
         </message>
         <message>
             <source>Lets the simulated hand point the needle by these two angles, as by a protractor; a needle in your own hand you turn yourself</source>
-            <translation>Laisse la main simulée orienter l’aiguille selon ces deux angles, comme avec un rapporteur ; une aiguille dans votre propre main, vous la tournez vous-même</translation>
+            <translation type="unfinished">Laisse la main simulée orienter l’aiguille selon ces deux angles, comme avec un rapporteur ; une aiguille dans votre propre main, vous la tournez vous-même</translation>
         </message>
         <message>
             <source>Entry on the skin</source>
-            <translation>Entrée sur la peau</translation>
+            <translation type="unfinished">Entrée sur la peau</translation>
         </message>
         <message>
             <source>Plan the entry on the CT first: the mark is compared with it</source>
-            <translation>Planifiez d’abord l’entrée sur le scanner : la marque lui est comparée</translation>
+            <translation type="unfinished">Planifiez d’abord l’entrée sur le scanner : la marque lui est comparée</translation>
         </message>
         <message>
             <source>Plan the entry on the CT first</source>
-            <translation>Planifiez d’abord l’entrée sur le scanner</translation>
+            <translation type="unfinished">Planifiez d’abord l’entrée sur le scanner</translation>
         </message>
         <message>
             <source>Needle: {plane:+.1f}° in the slice (+ towards higher numbers), {head:+.1f}° out of it (+ towards the head)</source>
-            <translation>Aiguille : {plane:+.1f}° dans la coupe (+ vers les numéros plus grands), {head:+.1f}° hors d’elle (+ vers la tête)</translation>
+            <translation type="unfinished">Aiguille : {plane:+.1f}° dans la coupe (+ vers les numéros plus grands), {head:+.1f}° hors d’elle (+ vers la tête)</translation>
         </message>
         <message>
             <source>Room between hub and bore: {mm:.0f} mm</source>
-            <translation>Place entre l’embase et l’anneau : {mm:.0f} mm</translation>
+            <translation type="unfinished">Place entre l’embase et l’anneau : {mm:.0f} mm</translation>
         </message>
         <message>
             <source>Marked at table {table:.1f} mm, line {line} {offset:+.1f} mm</source>
-            <translation>Marquée à la table {table:.1f} mm, ligne {line} {offset:+.1f} mm</translation>
+            <translation type="unfinished">Marquée à la table {table:.1f} mm, ligne {line} {offset:+.1f} mm</translation>
         </message>
         <message>
             <source>All slices</source>
@@ -14762,11 +14762,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Draw the needle out of the skin, turn it to {n}</source>
-            <translation>Retirez l’aiguille de la peau, tournez-la vers {n}</translation>
+            <translation type="unfinished">Retirez l’aiguille de la peau, tournez-la vers {n}</translation>
         </message>
         <message>
             <source>Draw the needle out, or give more (J)</source>
-            <translation>Retirez l'aiguille, ou injectez encore (J)</translation>
+            <translation type="unfinished">Retirez l'aiguille, ou injectez encore (J)</translation>
         </message>
         <message>
             <source>Stylet out (J) for another; or draw out and turn the patient (Alt+J)</source>
@@ -14782,23 +14782,23 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Another sample: stylet out (J). Enter ends the attempt</source>
-            <translation>Un autre prélèvement : stylet retiré (J). Entrée termine l'essai</translation>
+            <translation type="unfinished">Un autre prélèvement : stylet retiré (J). Entrée termine l'essai</translation>
         </message>
         <message>
             <source>Push to just before pleura or capsule, then give local anaesthetic (J)</source>
-            <translation>Avancez jusque devant la plèvre ou la capsule, puis injectez l'anesthésique local (J)</translation>
+            <translation type="unfinished">Avancez jusque devant la plèvre ou la capsule, puis injectez l'anesthésique local (J)</translation>
         </message>
         <message>
             <source>Stop with the tip at the lesion's near edge, then stylet out (J)</source>
-            <translation>Arrêtez la pointe au bord proche de la lésion, puis retirez le stylet (J)</translation>
+            <translation type="unfinished">Arrêtez la pointe au bord proche de la lésion, puis retirez le stylet (J)</translation>
         </message>
         <message>
             <source>The hub is open: gun in, or stylet in (J)</source>
-            <translation>L'embase est ouverte : pistolet en place, ou stylet en place (J)</translation>
+            <translation type="unfinished">L'embase est ouverte : pistolet en place, ou stylet en place (J)</translation>
         </message>
         <message>
             <source>Hold still and fire (Ctrl+J)</source>
-            <translation>Ne bougez plus et déclenchez (Ctrl+J)</translation>
+            <translation type="unfinished">Ne bougez plus et déclenchez (Ctrl+J)</translation>
         </message>
         <message>
             <source>Held, {s:.0f} s left: </source>
@@ -15198,7 +15198,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>DICOMweb: by https</source>
-            <translation>DICOMweb : par https</translation>
+            <translation type="unfinished">DICOMweb : par https</translation>
         </message>
         <message>
             <source>Encrypted connection (TLS)</source>
@@ -15258,19 +15258,19 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Web address</source>
-            <translation>Adresse web</translation>
+            <translation type="unfinished">Adresse web</translation>
         </message>
         <message>
             <source>https://…/dicom-web, before /studies</source>
-            <translation>https://…/dicom-web, avant /studies</translation>
+            <translation type="unfinished">https://…/dicom-web, avant /studies</translation>
         </message>
         <message>
             <source>name that the archive gave you; may stay empty</source>
-            <translation>nom que l’archive vous a donné ; peut rester vide</translation>
+            <translation type="unfinished">nom que l’archive vous a donné ; peut rester vide</translation>
         </message>
         <message>
             <source>kept in a file that only you can read</source>
-            <translation>gardé dans un fichier que vous seul pouvez lire</translation>
+            <translation type="unfinished">gardé dans un fichier que vous seul pouvez lire</translation>
         </message>
         <message>
             <source>Own address</source>
@@ -15342,7 +15342,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Test</source>
-            <translation>Tester</translation>
+            <translation type="unfinished">Tester</translation>
         </message>
         <message>
             <source>Asking {name}…</source>
@@ -15878,15 +15878,15 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{day!r} is no day; give one such as 2026-11-30</source>
-            <translation>{day!r} n'est pas un jour ; donnez-en un comme 2026-11-30</translation>
+            <translation type="unfinished">{day!r} n'est pas un jour ; donnez-en un comme 2026-11-30</translation>
         </message>
         <message>
             <source>a course {id} is there already: give another --name, or change it in the window</source>
-            <translation>un cours {id} existe déjà : donnez un autre --name, ou modifiez-le dans la fenêtre</translation>
+            <translation type="unfinished">un cours {id} existe déjà : donnez un autre --name, ou modifiez-le dans la fenêtre</translation>
         </message>
         <message>
             <source>{id:32} {units} units  {title}</source>
-            <translation>{id:32} {units} unités  {title}</translation>
+            <translation type="unfinished">{id:32} {units} unités  {title}</translation>
         </message>
         <message>
             <source>Write this down and lock it away: it sets a new password, and opens the station's key in a backup. It is not stored anywhere.</source>
@@ -16421,27 +16421,27 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Begin with</source>
-            <translation>Commencer par</translation>
+            <translation type="unfinished">Commencer par</translation>
         </message>
         <message>
             <source>nothing: an empty course</source>
-            <translation>rien : un cours vide</translation>
+            <translation type="unfinished">rien : un cours vide</translation>
         </message>
         <message>
             <source>First day of the course; its units are counted from it</source>
-            <translation>Premier jour du cours ; ses unités se comptent à partir de lui</translation>
+            <translation type="unfinished">Premier jour du cours ; ses unités se comptent à partir de lui</translation>
         </message>
         <message>
             <source>First day</source>
-            <translation>Premier jour</translation>
+            <translation type="unfinished">Premier jour</translation>
         </message>
         <message>
             <source>Fill in</source>
-            <translation>Remplir</translation>
+            <translation type="unfinished">Remplir</translation>
         </message>
         <message>
             <source>Put the plan's exercises and days into the form, in place of what is there</source>
-            <translation>Mettre les exercices et les jours du plan dans le formulaire, à la place de ce qui s'y trouve</translation>
+            <translation type="unfinished">Mettre les exercices et les jours du plan dans le formulaire, à la place de ce qui s'y trouve</translation>
         </message>
         <message>
             <source>any</source>
@@ -16765,7 +16765,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Report the path through the lung</source>
-            <translation>Décrire le trajet dans le poumon</translation>
+            <translation type="unfinished">Décrire le trajet dans le poumon</translation>
         </message>
         <message>
             <source>Clear</source>
@@ -16773,63 +16773,63 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>For a target in the lung: pleura and fissures crossed with their angles, lung and emphysema on the way, room to ribs and intercostal vessels, vessels and bronchi.</source>
-            <translation>Pour une cible dans le poumon : plèvre et scissures traversées avec leurs angles, poumon et emphysème sur le trajet, distance aux côtes et aux vaisseaux intercostaux, vaisseaux et bronches.</translation>
+            <translation type="unfinished">Pour une cible dans le poumon : plèvre et scissures traversées avec leurs angles, poumon et emphysème sur le trajet, distance aux côtes et aux vaisseaux intercostaux, vaisseaux et bronches.</translation>
         </message>
         <message>
             <source>Your plan</source>
-            <translation>Votre plan</translation>
+            <translation type="unfinished">Votre plan</translation>
         </message>
         <message>
             <source>The selected alternative stands beside your plan.</source>
-            <translation>L’alternative choisie figure à côté de votre plan.</translation>
+            <translation type="unfinished">L’alternative choisie figure à côté de votre plan.</translation>
         </message>
         <message>
             <source>Select a path of the map to see its figures beside your plan's.</source>
-            <translation>Choisissez un trajet de la carte pour voir ses valeurs à côté de celles de votre plan.</translation>
+            <translation type="unfinished">Choisissez un trajet de la carte pour voir ses valeurs à côté de celles de votre plan.</translation>
         </message>
         <message>
             <source>Path through the lung</source>
-            <translation>Trajet dans le poumon</translation>
+            <translation type="unfinished">Trajet dans le poumon</translation>
         </message>
         <message>
             <source>The path is being looked up…</source>
-            <translation>Recherche du trajet…</translation>
+            <translation type="unfinished">Recherche du trajet…</translation>
         </message>
         <message>
             <source>Place entry and target first (keys E, T)</source>
-            <translation>Placez d’abord le point d’entrée et la cible (touches E, T)</translation>
+            <translation type="unfinished">Placez d’abord le point d’entrée et la cible (touches E, T)</translation>
         </message>
         <message>
             <source>Reporting the path</source>
-            <translation>Description du trajet</translation>
+            <translation type="unfinished">Description du trajet</translation>
         </message>
         <message>
             <source>Pleura {angle:.0f}°</source>
-            <translation>Plèvre {angle:.0f}°</translation>
+            <translation type="unfinished">Plèvre {angle:.0f}°</translation>
         </message>
         <message>
             <source>Fissure</source>
-            <translation>Scissure</translation>
+            <translation type="unfinished">Scissure</translation>
         </message>
         <message>
             <source>Fissure {angle:.0f}°</source>
-            <translation>Scissure {angle:.0f}°</translation>
+            <translation type="unfinished">Scissure {angle:.0f}°</translation>
         </message>
         <message>
             <source>Rib below</source>
-            <translation>Côte inférieure</translation>
+            <translation type="unfinished">Côte inférieure</translation>
         </message>
         <message>
             <source>Rib above</source>
-            <translation>Côte supérieure</translation>
+            <translation type="unfinished">Côte supérieure</translation>
         </message>
         <message>
             <source>{name} {mm:.1f} mm</source>
-            <translation>{name} {mm:.1f} mm</translation>
+            <translation type="unfinished">{name} {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Rib met</source>
-            <translation>Côte touchée</translation>
+            <translation type="unfinished">Côte touchée</translation>
         </message>
         <message>
             <source>Take this path</source>
@@ -16892,7 +16892,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Alternative
 {points:.0f} points</source>
-            <translation>Alternative
+            <translation type="unfinished">Alternative
 {points:.0f} points</translation>
         </message>
         <message>
@@ -17389,11 +17389,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Conformance of a board</source>
-            <translation>Conformité d’une carte</translation>
+            <translation type="unfinished">Conformité d’une carte</translation>
         </message>
         <message>
             <source>Serial number</source>
-            <translation>Numéro de série</translation>
+            <translation type="unfinished">Numéro de série</translation>
         </message>
         <message>
             <source>Firmware</source>
@@ -17401,7 +17401,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Asked</source>
-            <translation>Interrogée le</translation>
+            <translation type="unfinished">Interrogée le</translation>
         </message>
         <message>
             <source>{version}, protocol {protocol}</source>
@@ -18245,7 +18245,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>next step, fire the gun (something is wrong, do it)</source>
-            <translation>étape suivante, tirer (quelque chose ne va pas, le faire)</translation>
+            <translation type="unfinished">étape suivante, tirer (quelque chose ne va pas, le faire)</translation>
         </message>
         <message>
             <source>open CT folder, open plan</source>
@@ -19489,11 +19489,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Anaesthetic to membrane</source>
-            <translation>Anesthésique jusqu'à la membrane</translation>
+            <translation type="unfinished">Anesthésique jusqu'à la membrane</translation>
         </message>
         <message>
             <source>Angle at the pleura of the planned path</source>
-            <translation>Angle du trajet prévu à la plèvre</translation>
+            <translation type="unfinished">Angle du trajet prévu à la plèvre</translation>
         </message>
         <message>
             <source>Angle error at the skin</source>
@@ -19573,11 +19573,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Complication answered</source>
-            <translation>Réponse à la complication</translation>
+            <translation type="unfinished">Réponse à la complication</translation>
         </message>
         <message>
             <source>Complication noticed after</source>
-            <translation>Complication remarquée après</translation>
+            <translation type="unfinished">Complication remarquée après</translation>
         </message>
         <message>
             <source>Contact of the tip with bone</source>
@@ -19609,7 +19609,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Diagnostic samples</source>
-            <translation>Prélèvements diagnostiques</translation>
+            <translation type="unfinished">Prélèvements diagnostiques</translation>
         </message>
         <message>
             <source>Dimpling and puncture of skin, fascia and capsule</source>
@@ -19629,7 +19629,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Dose of the hand (teaching estimate)</source>
-            <translation>Dose à la main (estimation pour l’enseignement)</translation>
+            <translation type="unfinished">Dose à la main (estimation pour l’enseignement)</translation>
         </message>
         <message>
             <source>Economy of motion</source>
@@ -19637,11 +19637,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Electrode spacing error</source>
-            <translation>Erreur d’écart des électrodes</translation>
+            <translation type="unfinished">Erreur d’écart des électrodes</translation>
         </message>
         <message>
             <source>Emphysema on the planned path</source>
-            <translation>Emphysème sur le trajet prévu</translation>
+            <translation type="unfinished">Emphysème sur le trajet prévu</translation>
         </message>
         <message>
             <source>Entries that planning help tries: how many find the best path</source>
@@ -19661,7 +19661,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Fissures on the planned path</source>
-            <translation>Scissures sur le trajet prévu</translation>
+            <translation type="unfinished">Scissures sur le trajet prévu</translation>
         </message>
         <message>
             <source>Force at its limit</source>
@@ -19717,7 +19717,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Hub open to air</source>
-            <translation>Embase ouverte à l'air</translation>
+            <translation type="unfinished">Embase ouverte à l'air</translation>
         </message>
         <message>
             <source>Impedance at the tool point: virtual mass, spring and damper</source>
@@ -19749,7 +19749,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Least margin</source>
-            <translation>Marge minimale</translation>
+            <translation type="unfinished">Marge minimale</translation>
         </message>
         <message>
             <source>Least squares of the band's whole picture</source>
@@ -19757,7 +19757,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Lesion in the best sample</source>
-            <translation>Lésion dans le meilleur prélèvement</translation>
+            <translation type="unfinished">Lésion dans le meilleur prélèvement</translation>
         </message>
         <message>
             <source>Letting go of the needle: force to be had against run-away</source>
@@ -19769,23 +19769,23 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Liver ablation with three needles</source>
-            <translation>Ablation du foie à trois aiguilles</translation>
+            <translation type="unfinished">Ablation du foie à trois aiguilles</translation>
         </message>
         <message>
             <source>Lung biopsy in six units</source>
-            <translation>Biopsie pulmonaire en six unités</translation>
+            <translation type="unfinished">Biopsie pulmonaire en six unités</translation>
         </message>
         <message>
             <source>Lung biopsy in which something can happen</source>
-            <translation>Biopsie pulmonaire où quelque chose peut arriver</translation>
+            <translation type="unfinished">Biopsie pulmonaire où quelque chose peut arriver</translation>
         </message>
         <message>
             <source>Lung biopsy, from the skin to the sample</source>
-            <translation>Biopsie pulmonaire, de la peau au prélèvement</translation>
+            <translation type="unfinished">Biopsie pulmonaire, de la peau au prélèvement</translation>
         </message>
         <message>
             <source>Lung on the planned path</source>
-            <translation>Poumon sur le trajet prévu</translation>
+            <translation type="unfinished">Poumon sur le trajet prévu</translation>
         </message>
         <message>
             <source>Lung, oblique twice between ribs</source>
@@ -19793,7 +19793,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Marked entry off the planned one</source>
-            <translation>Entrée marquée à côté de celle planifiée</translation>
+            <translation type="unfinished">Entrée marquée à côté de celle planifiée</translation>
         </message>
         <message>
             <source>Mask, then the centroid of the covered shares</source>
@@ -19809,7 +19809,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Met by a throw</source>
-            <translation>Rencontré par le tir</translation>
+            <translation type="unfinished">Rencontré par le tir</translation>
         </message>
         <message>
             <source>Metrics against what is published of them</source>
@@ -19869,7 +19869,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Pause before the membrane</source>
-            <translation>Pause devant la membrane</translation>
+            <translation type="unfinished">Pause devant la membrane</translation>
         </message>
         <message>
             <source>Peak force, estimated</source>
@@ -19877,7 +19877,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Pierced by the anaesthetic</source>
-            <translation>Percé par l'anesthésique</translation>
+            <translation type="unfinished">Percé par l'anesthésique</translation>
         </message>
         <message>
             <source>Planned path</source>
@@ -19909,7 +19909,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Reached beside the organ</source>
-            <translation>Atteint hors de l’organe</translation>
+            <translation type="unfinished">Atteint hors de l’organe</translation>
         </message>
         <message>
             <source>Read the planning CT, align the needle by the plan and take control scans where you would in the scanner room: choose table position and 3 to 5 slices, press the pedal (S). A tip outside the slices is not seen. There is no other view of the needle and no guidance by the robot. Use few scans. The patient holds the breath.</source>
@@ -19937,11 +19937,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Room to intercostal vessels</source>
-            <translation>Distance aux vaisseaux intercostaux</translation>
+            <translation type="unfinished">Distance aux vaisseaux intercostaux</translation>
         </message>
         <message>
             <source>Room to the ribs on the planned path</source>
-            <translation>Distance du trajet prévu aux côtes</translation>
+            <translation type="unfinished">Distance du trajet prévu aux côtes</translation>
         </message>
         <message>
             <source>Side stiffness of layered tissue about the fulcrum</source>
@@ -19973,7 +19973,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>From the first insertion to a whole biopsy of a lung nodule: hand and tissue, choosing a path, a path that is oblique twice between two ribs, the whole biopsy, one in which something can happen, and an assessment by control scans alone.</source>
-            <translation>De la première insertion à la biopsie entière d'un nodule pulmonaire : main et tissu, choix d'un trajet, trajet doublement oblique entre deux côtes, biopsie entière, une où quelque chose peut arriver, et une évaluation par scans de contrôle seuls.</translation>
+            <translation type="unfinished">De la première insertion à la biopsie entière d'un nodule pulmonaire : main et tissu, choix d'un trajet, trajet doublement oblique entre deux côtes, biopsie entière, une où quelque chose peut arriver, et une évaluation par scans de contrôle seuls.</translation>
         </message>
         <message>
             <source>Target error</source>
@@ -20121,7 +20121,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Vessels within 3 mm</source>
-            <translation>Vaisseaux à moins de 3 mm</translation>
+            <translation type="unfinished">Vaisseaux à moins de 3 mm</translation>
         </message>
         <message>
             <source>Views of a board that calibrate a camera</source>
@@ -20264,7 +20264,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message numerus="yes">
             <source>{n} attempts of scripts, not people</source>
-            <translation>
+            <translation type="unfinished">
                 <numerusform>{n} essai de scripts, pas de personnes</numerusform>
                 <numerusform>{n} essais de scripts, pas de personnes</numerusform>
             </translation>
@@ -20376,7 +20376,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message numerus="yes">
             <source>{n} have no score and are in no mean</source>
-            <translation>
+            <translation type="unfinished">
                 <numerusform>{n} n’a pas de score et n’entre dans aucune moyenne</numerusform>
                 <numerusform>{n} n’ont pas de score et n’entrent dans aucune moyenne</numerusform>
             </translation>
@@ -20864,46 +20864,46 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>
   complications, by lot at published odds: pneumothorax {air:.0f} % of a needle along the plan, {drain:.0f} % of those with a drain; blood in the lung {blood:.0f} %</source>
-            <translation>
+            <translation type="unfinished">
   complications, tirées au sort selon des cotes publiées : pneumothorax {air:.0f} % pour une aiguille suivant le plan, dont {drain:.0f} % avec drain ; sang dans le poumon {blood:.0f} %</translation>
         </message>
         <message>
             <source>    it has: {factors}</source>
-            <translation>    elle a : {factors}</translation>
+            <translation type="unfinished">    elle a : {factors}</translation>
         </message>
         <message>
             <source>    not known, as in the case mix: {factors}</source>
-            <translation>    inconnu, comme dans l’ensemble des cas : {factors}</translation>
+            <translation type="unfinished">    inconnu, comme dans l’ensemble des cas : {factors}</translation>
         </message>
         <message>
             <source>    {source}</source>
-            <translation>    {source}</translation>
+            <translation type="unfinished">    {source}</translation>
         </message>
         <message>
             <source>
   ablates with {electrodes} electrodes, one after another through one entry, {power:g} W for {minutes:g} min</source>
-            <translation>
+            <translation type="unfinished">
   détruit avec {electrodes} électrodes, l’une après l’autre par une entrée, {power:g} W pendant {minutes:g} min</translation>
         </message>
         <message>
             <source>generator</source>
-            <translation>générateur</translation>
+            <translation type="unfinished">générateur</translation>
         </message>
         <message>
             <source>source</source>
-            <translation>source</translation>
+            <translation type="unfinished">source</translation>
         </message>
         <message>
             <source>{margin:.1f} mm planned of {wanted:g} wanted, {share:.1f} % of the lesion</source>
-            <translation>{margin:.1f} mm prévus de {wanted:g} voulus, {share:.1f} % de la lésion</translation>
+            <translation type="unfinished">{margin:.1f} mm prévus de {wanted:g} voulus, {share:.1f} % de la lésion</translation>
         </message>
         <message>
             <source>margin</source>
-            <translation>marge</translation>
+            <translation type="unfinished">marge</translation>
         </message>
         <message>
             <source>{vessel} lies within 3 mm of the zone: what it cools is not reckoned</source>
-            <translation>{vessel} est à moins de 3 mm de la zone : son refroidissement n’est pas compté</translation>
+            <translation type="unfinished">{vessel} est à moins de 3 mm de la zone : son refroidissement n’est pas compté</translation>
         </message>
         <message>
             <source>  the patient calls for</source>
@@ -20963,11 +20963,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>give --user with --web</source>
-            <translation>donnez --user avec --web</translation>
+            <translation type="unfinished">donnez --user avec --web</translation>
         </message>
         <message>
             <source>give --host and --title, or --web</source>
-            <translation>donnez --host et --title, ou --web</translation>
+            <translation type="unfinished">donnez --host et --title, ou --web</translation>
         </message>
         <message>
             <source>{name} is configured; `acus pacs echo --pacs {name}` asks whether it is there</source>
@@ -20991,7 +20991,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>DICOMweb has no C-MOVE; use `acus pacs get`</source>
-            <translation>DICOMweb n’a pas de C-MOVE ; utilisez `acus pacs get`</translation>
+            <translation type="unfinished">DICOMweb n’a pas de C-MOVE ; utilisez `acus pacs get`</translation>
         </message>
         <message>
             <source>print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)</source>
@@ -21195,11 +21195,11 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>no report of a path through the lung was asked for</source>
-            <translation>aucune description du trajet dans le poumon n’était demandée</translation>
+            <translation type="unfinished">aucune description du trajet dans le poumon n’était demandée</translation>
         </message>
         <message>
             <source>nobody labelled what would tell it in this patient</source>
-            <translation>personne n’a marqué chez ce patient ce qui le dirait</translation>
+            <translation type="unfinished">personne n’a marqué chez ce patient ce qui le dirait</translation>
         </message>
         <message>
             <source>The path passes {length_mm:.1f} mm of {tissue}, {depth_mm:.0f} mm deep.</source>
@@ -21243,7 +21243,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Whole procedures</source>
-            <translation>Interventions entières</translation>
+            <translation type="unfinished">Interventions entières</translation>
         </message>
         <message>
             <source>Research machines</source>
@@ -23315,15 +23315,15 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{name} cannot be reached: no computer {host} is known</source>
-            <translation>{name} est inaccessible : aucun ordinateur {host} n’est connu</translation>
+            <translation type="unfinished">{name} est inaccessible : aucun ordinateur {host} n’est connu</translation>
         </message>
         <message>
             <source>{name} cannot be reached: nothing listens at {host}</source>
-            <translation>{name} est inaccessible : rien n’écoute à {host}</translation>
+            <translation type="unfinished">{name} est inaccessible : rien n’écoute à {host}</translation>
         </message>
         <message>
             <source>{name} does not answer, or not to the end, within {seconds:g} s: try again, what has been taken is kept once</source>
-            <translation>{name} ne répond pas, ou pas jusqu’au bout, en {seconds:g} s : réessayez, ce qui a été pris est gardé une seule fois</translation>
+            <translation type="unfinished">{name} ne répond pas, ou pas jusqu’au bout, en {seconds:g} s : réessayez, ce qui a été pris est gardé une seule fois</translation>
         </message>
         <message>
             <source>{name} does not let {user!r} in ({status}): give name and password again</source>
@@ -23495,35 +23495,35 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>device {name} is of kind {kind}; MJCF is written for kind {kinds} alone</source>
-            <translation>l’appareil {name} est du type {kind} ; le MJCF n’est écrit que pour le type {kinds}</translation>
+            <translation type="unfinished">l’appareil {name} est du type {kind} ; le MJCF n’est écrit que pour le type {kinds}</translation>
         </message>
         <message>
             <source>{name} lists more than {most_pictures} pictures</source>
-            <translation>{name} énumère plus de {most_pictures} images</translation>
+            <translation type="unfinished">{name} énumère plus de {most_pictures} images</translation>
         </message>
         <message>
             <source>it sent a picture that is too large</source>
-            <translation>elle a envoyé une image trop grande</translation>
+            <translation type="unfinished">elle a envoyé une image trop grande</translation>
         </message>
         <message>
             <source>it sent something else than one picture for one picture</source>
-            <translation>elle a envoyé autre chose qu’une image pour une image</translation>
+            <translation type="unfinished">elle a envoyé autre chose qu’une image pour une image</translation>
         </message>
         <message>
             <source>{name} does not answer as an archive by the web: its address must be the one before /studies</source>
-            <translation>{name} ne répond pas comme une archive du web : son adresse doit être celle d’avant /studies</translation>
+            <translation type="unfinished">{name} ne répond pas comme une archive du web : son adresse doit être celle d’avant /studies</translation>
         </message>
         <message>
             <source>{name} refuses with {status}; try again, and ask who runs it if it stays</source>
-            <translation>{name} refuse avec {status} ; réessayez, et demandez au responsable si cela persiste</translation>
+            <translation type="unfinished">{name} refuse avec {status} ; réessayez, et demandez au responsable si cela persiste</translation>
         </message>
         <message>
             <source>{name}: {uid!r} is no UID of DICOM</source>
-            <translation>{name} : {uid!r} n’est pas un UID de DICOM</translation>
+            <translation type="unfinished">{name} : {uid!r} n’est pas un UID de DICOM</translation>
         </message>
         <message>
             <source>PACS {name} has no web address: `acus pacs add {name} --web https://…`</source>
-            <translation>Le PACS {name} n’a pas d’adresse web : `acus pacs add {name} --web https://…`</translation>
+            <translation type="unfinished">Le PACS {name} n’a pas d’adresse web : `acus pacs add {name} --web https://…`</translation>
         </message>
         <message>
             <source>no provider is named: `acus people openid --issuer URL --client ID`</source>
@@ -23687,15 +23687,15 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>diagnostic_mm {diagnostic_mm:g} is more than the longest notch holds, {longest:g} mm: no sample could suffice</source>
-            <translation>diagnostic_mm {diagnostic_mm:g} dépasse ce que contient la plus longue encoche, {longest:g} mm : aucun prélèvement ne pourrait suffire</translation>
+            <translation type="unfinished">diagnostic_mm {diagnostic_mm:g} dépasse ce que contient la plus longue encoche, {longest:g} mm : aucun prélèvement ne pourrait suffire</translation>
         </message>
         <message>
             <source>neither pneumothorax nor bleeding can happen: leave complications out</source>
-            <translation>ni pneumothorax ni saignement ne peut survenir : omettez complications</translation>
+            <translation type="unfinished">ni pneumothorax ni saignement ne peut survenir : omettez complications</translation>
         </message>
         <message>
             <source>lines: {lines}: an odd number has a line in the middle</source>
-            <translation>lines : {lines} : un nombre impair a une ligne au milieu</translation>
+            <translation type="unfinished">lines : {lines} : un nombre impair a une ligne au milieu</translation>
         </message>
         <message>
             <source>inr {inr:g}: above {most:g} coagulation is corrected before a needle goes in; give a patient with {most:g} or less</source>
@@ -23711,127 +23711,127 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>procedure: samples and ablation are two exercises: leave one out</source>
-            <translation>procedure : prélèvements et ablation sont deux exercices : omettez l’un</translation>
+            <translation type="unfinished">procedure : prélèvements et ablation sont deux exercices : omettez l’un</translation>
         </message>
         <message>
             <source>procedure names no step; there are {names}</source>
-            <translation>procedure ne nomme aucune étape ; il y a {names}</translation>
+            <translation type="unfinished">procedure ne nomme aucune étape ; il y a {names}</translation>
         </message>
         <message>
             <source>a throw of {throw_mm:g} mm with a notch of {notch_mm:g} mm and a tip of {tip_mm:g} mm beyond it: all must be above 0</source>
-            <translation>un tir de {throw_mm:g} mm avec une encoche de {notch_mm:g} mm et une pointe de {tip_mm:g} mm au-delà : tous doivent dépasser 0</translation>
+            <translation type="unfinished">un tir de {throw_mm:g} mm avec une encoche de {notch_mm:g} mm et une pointe de {tip_mm:g} mm au-delà : tous doivent dépasser 0</translation>
         </message>
         <message>
             <source>a notch of {notch_mm:g} mm and {tip_mm:g} mm beyond it are longer than the throw of {throw_mm:g} mm: part of the notch would stay in the outer needle</source>
-            <translation>une encoche de {notch_mm:g} mm et {tip_mm:g} mm au-delà dépassent le tir de {throw_mm:g} mm : une partie de l'encoche resterait dans l'aiguille externe</translation>
+            <translation type="unfinished">une encoche de {notch_mm:g} mm et {tip_mm:g} mm au-delà dépassent le tir de {throw_mm:g} mm : une partie de l'encoche resterait dans l'aiguille externe</translation>
         </message>
         <message>
             <source>the throw leaves the organ {ahead:.1f} mm ahead, into {tissue}</source>
-            <translation>le tir quitte l'organe à {ahead:.1f} mm, vers {tissue}</translation>
+            <translation type="unfinished">le tir quitte l'organe à {ahead:.1f} mm, vers {tissue}</translation>
         </message>
         <message>
             <source>the throw meets {tissue} {ahead:.1f} mm ahead, for {length:.1f} mm</source>
-            <translation>le tir rencontre {tissue} à {ahead:.1f} mm, sur {length:.1f} mm</translation>
+            <translation type="unfinished">le tir rencontre {tissue} à {ahead:.1f} mm, sur {length:.1f} mm</translation>
         </message>
         <message>
             <source>the target lies in {tissue}: nobody marked a lesion there, so that no sample can be judged; mark it as a structure of kind target</source>
-            <translation>la cible est dans {tissue} : personne n'y a marqué de lésion, aucun prélèvement ne peut donc être jugé ; marquez-la comme structure de type cible</translation>
+            <translation type="unfinished">la cible est dans {tissue} : personne n'y a marqué de lésion, aucun prélèvement ne peut donc être jugé ; marquez-la comme structure de type cible</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min stands in the table twice: leave one out</source>
-            <translation>{power:g} W pendant {minutes:g} min est deux fois dans la table : omettez l’un</translation>
+            <translation type="unfinished">{power:g} W pendant {minutes:g} min est deux fois dans la table : omettez l’un</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min: a zone {long_mm:g} mm long cannot reach {ahead:g} mm ahead of the tip</source>
-            <translation>{power:g} W pendant {minutes:g} min : une zone longue de {long_mm:g} mm ne peut dépasser la pointe de {ahead:g} mm</translation>
+            <translation type="unfinished">{power:g} W pendant {minutes:g} min : une zone longue de {long_mm:g} mm ne peut dépasser la pointe de {ahead:g} mm</translation>
         </message>
         <message>
             <source>{title}: ex vivo, {tissue}</source>
-            <translation>{title} : ex vivo, {tissue}</translation>
+            <translation type="unfinished">{title} : ex vivo, {tissue}</translation>
         </message>
         <message>
             <source>{title}: in vivo, {tissue}</source>
-            <translation>{title} : in vivo, {tissue}</translation>
+            <translation type="unfinished">{title} : in vivo, {tissue}</translation>
         </message>
         <message>
             <source>{power:g} W for {minutes:g} min is not in the generator's table; there are {all}</source>
-            <translation>{power:g} W pendant {minutes:g} min n’est pas dans la table du générateur ; il y a {all}</translation>
+            <translation type="unfinished">{power:g} W pendant {minutes:g} min n’est pas dans la table du générateur ; il y a {all}</translation>
         </message>
         <message>
             <source>the needle has no direction</source>
-            <translation>l'aiguille n'a pas de direction</translation>
+            <translation type="unfinished">l'aiguille n'a pas de direction</translation>
         </message>
         <message>
             <source>no generator's table is called {name!r}; there are {names}, or give the path of a .yaml file</source>
-            <translation>aucune table de générateur ne s’appelle {name!r} ; il y a {names}, ou donnez le chemin d’un fichier .yaml</translation>
+            <translation type="unfinished">aucune table de générateur ne s’appelle {name!r} ; il y a {names}, ou donnez le chemin d’un fichier .yaml</translation>
         </message>
         <message>
             <source>no local anaesthetic was given</source>
-            <translation>aucun anesthésique local n'a été injecté</translation>
+            <translation type="unfinished">aucun anesthésique local n'a été injecté</translation>
         </message>
         <message>
             <source>no pleura or capsule is known on the needle's way</source>
-            <translation>ni plèvre ni capsule ne sont connues sur le trajet de l'aiguille</translation>
+            <translation type="unfinished">ni plèvre ni capsule ne sont connues sur le trajet de l'aiguille</translation>
         </message>
         <message>
             <source>no sample was taken</source>
-            <translation>aucun prélèvement n'a été fait</translation>
+            <translation type="unfinished">aucun prélèvement n'a été fait</translation>
         </message>
         <message>
             <source>neither pleura nor capsule was crossed</source>
-            <translation>ni plèvre ni capsule n'ont été traversées</translation>
+            <translation type="unfinished">ni plèvre ni capsule n'ont été traversées</translation>
         </message>
         <message>
             <source>nothing was ablated</source>
-            <translation>rien n’a été détruit</translation>
+            <translation type="unfinished">rien n’a été détruit</translation>
         </message>
         <message>
             <source>a step of the procedure at {time} s: a number is not finite</source>
-            <translation>une étape de l'intervention à {time} s : un nombre n'est pas fini</translation>
+            <translation type="unfinished">une étape de l'intervention à {time} s : un nombre n'est pas fini</translation>
         </message>
         <message>
             <source>closes on day {closes}, before it opens on day {opens}</source>
-            <translation>ferme le jour {closes}, avant d'ouvrir le jour {opens}</translation>
+            <translation type="unfinished">ferme le jour {closes}, avant d'ouvrir le jour {opens}</translation>
         </message>
         <message>
             <source>{name!r} is no plan of a course; there: {known}</source>
-            <translation>{name!r} n'est pas un plan de cours ; il y a : {known}</translation>
+            <translation type="unfinished">{name!r} n'est pas un plan de cours ; il y a : {known}</translation>
         </message>
         <message>
             <source>local anaesthetic given</source>
-            <translation>anesthésique local injecté</translation>
+            <translation type="unfinished">anesthésique local injecté</translation>
         </message>
         <message>
             <source>the outer needle is taken</source>
-            <translation>l'aiguille externe est prise</translation>
+            <translation type="unfinished">l'aiguille externe est prise</translation>
         </message>
         <message>
             <source>stylet out: the hub is open</source>
-            <translation>stylet retiré : l'embase est ouverte</translation>
+            <translation type="unfinished">stylet retiré : l'embase est ouverte</translation>
         </message>
         <message>
             <source>stylet in</source>
-            <translation>stylet en place</translation>
+            <translation type="unfinished">stylet en place</translation>
         </message>
         <message>
             <source>biopsy gun in</source>
-            <translation>pistolet à biopsie en place</translation>
+            <translation type="unfinished">pistolet à biopsie en place</translation>
         </message>
         <message>
             <source>biopsy gun fired</source>
-            <translation>pistolet à biopsie déclenché</translation>
+            <translation type="unfinished">pistolet à biopsie déclenché</translation>
         </message>
         <message>
             <source>biopsy gun out: the hub is open</source>
-            <translation>pistolet à biopsie retiré : l'embase est ouverte</translation>
+            <translation type="unfinished">pistolet à biopsie retiré : l'embase est ouverte</translation>
         </message>
         <message>
             <source>electrode left in place</source>
-            <translation>électrode laissée en place</translation>
+            <translation type="unfinished">électrode laissée en place</translation>
         </message>
         <message>
             <source>the generator has ablated</source>
-            <translation>le générateur a détruit</translation>
+            <translation type="unfinished">le générateur a détruit</translation>
         </message>
         <message>
             <source>the patient knows the risks and agrees</source>
@@ -23847,31 +23847,31 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>needle for local anaesthetic</source>
-            <translation>aiguille d'anesthésie locale</translation>
+            <translation type="unfinished">aiguille d'anesthésie locale</translation>
         </message>
         <message>
             <source>outer needle with its stylet</source>
-            <translation>aiguille externe avec son stylet</translation>
+            <translation type="unfinished">aiguille externe avec son stylet</translation>
         </message>
         <message>
             <source>outer needle, open to air</source>
-            <translation>aiguille externe, ouverte à l'air</translation>
+            <translation type="unfinished">aiguille externe, ouverte à l'air</translation>
         </message>
         <message>
             <source>outer needle with the biopsy gun, cocked</source>
-            <translation>aiguille externe avec le pistolet armé</translation>
+            <translation type="unfinished">aiguille externe avec le pistolet armé</translation>
         </message>
         <message>
             <source>outer needle with the biopsy gun, fired</source>
-            <translation>aiguille externe avec le pistolet déclenché</translation>
+            <translation type="unfinished">aiguille externe avec le pistolet déclenché</translation>
         </message>
         <message>
             <source>electrode</source>
-            <translation>électrode</translation>
+            <translation type="unfinished">électrode</translation>
         </message>
         <message>
             <source>this exercise ablates nothing</source>
-            <translation>cet exercice ne détruit rien</translation>
+            <translation type="unfinished">cet exercice ne détruit rien</translation>
         </message>
         <message>
             <source>the patient was turned: nothing more is done with the needle</source>
@@ -23879,19 +23879,19 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>this exercise takes no samples</source>
-            <translation>cet exercice ne comporte pas de prélèvement</translation>
+            <translation type="unfinished">cet exercice ne comporte pas de prélèvement</translation>
         </message>
         <message>
             <source>not possible now: held is the {tool}</source>
-            <translation>impossible maintenant : en main : {tool}</translation>
+            <translation type="unfinished">impossible maintenant : en main : {tool}</translation>
         </message>
         <message>
             <source>the syringe is empty after {count} times</source>
-            <translation>la seringue est vide après {count} injections</translation>
+            <translation type="unfinished">la seringue est vide après {count} injections</translation>
         </message>
         <message>
             <source>{count} samples were taken: the exercise allows no more</source>
-            <translation>{count} prélèvements ont été faits : l'exercice n'en permet pas plus</translation>
+            <translation type="unfinished">{count} prélèvements ont été faits : l'exercice n'en permet pas plus</translation>
         </message>
         <message>
             <source>this exercise has no checklist</source>
@@ -23919,7 +23919,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>not done: the needle's depth is not measured now; let both cameras see the marker and do it again</source>
-            <translation>non fait : la profondeur de l'aiguille n'est pas mesurée ; montrez le marqueur aux deux caméras et recommencez</translation>
+            <translation type="unfinished">non fait : la profondeur de l'aiguille n'est pas mesurée ; montrez le marqueur aux deux caméras et recommencez</translation>
         </message>
         <message>
             <source>the needle for local anaesthetic is still in the body: draw it out first</source>
@@ -23931,47 +23931,47 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>the tip is outside the skin: insert it first</source>
-            <translation>la pointe est hors de la peau : insérez-la d'abord</translation>
+            <translation type="unfinished">la pointe est hors de la peau : insérez-la d'abord</translation>
         </message>
         <message>
             <source>nothing tells which tissue lies where: use tissue: field in the exercise</source>
-            <translation>rien ne dit quel tissu se trouve où : utilisez tissue: field dans l'exercice</translation>
+            <translation type="unfinished">rien ne dit quel tissu se trouve où : utilisez tissue: field dans l'exercice</translation>
         </message>
         <message>
             <source>the lesion was ablated already: the attempt can be ended</source>
-            <translation>la lésion est déjà détruite : l’essai peut être terminé</translation>
+            <translation type="unfinished">la lésion est déjà détruite : l’essai peut être terminé</translation>
         </message>
         <message>
             <source>all {count} electrodes are in place</source>
-            <translation>les {count} électrodes sont en place</translation>
+            <translation type="unfinished">les {count} électrodes sont en place</translation>
         </message>
         <message>
             <source>{count} of {of} electrodes are in place: place the others first</source>
-            <translation>{count} électrodes sur {of} sont en place : placez d’abord les autres</translation>
+            <translation type="unfinished">{count} électrodes sur {of} sont en place : placez d’abord les autres</translation>
         </message>
         <message>
             <source>electrode {electrode} is {apart:.1f} mm from here: two at one place ablate one zone; draw back and go at least {least:g} mm beside it</source>
-            <translation>l’électrode {electrode} est à {apart:.1f} mm d’ici : deux à une place détruisent une zone ; reculez et placez-la à {least:g} mm au moins</translation>
+            <translation type="unfinished">l’électrode {electrode} est à {apart:.1f} mm d’ici : deux à une place détruisent une zone ; reculez et placez-la à {least:g} mm au moins</translation>
         </message>
         <message>
             <source>row {row} of the generator's table: there are 0 to {most}</source>
-            <translation>ligne {row} de la table du générateur : il y a 0 à {most}</translation>
+            <translation type="unfinished">ligne {row} de la table du générateur : il y a 0 à {most}</translation>
         </message>
         <message>
             <source>electrode {electrode} of {of} left in place</source>
-            <translation>électrode {electrode} sur {of} laissée en place</translation>
+            <translation type="unfinished">électrode {electrode} sur {of} laissée en place</translation>
         </message>
         <message>
             <source>setting {setting} of the gun: there are 0 to {most}</source>
-            <translation>réglage {setting} du pistolet : il y a de 0 à {most}</translation>
+            <translation type="unfinished">réglage {setting} du pistolet : il y a de 0 à {most}</translation>
         </message>
         <message>
             <source>No sample was taken.</source>
-            <translation>Aucun prélèvement n'a été fait.</translation>
+            <translation type="unfinished">Aucun prélèvement n'a été fait.</translation>
         </message>
         <message>
             <source>The needle for local anaesthetic: {met}, at {clock}.</source>
-            <translation>L'aiguille d'anesthésie locale : {met}, à {clock}.</translation>
+            <translation type="unfinished">L'aiguille d'anesthésie locale : {met}, à {clock}.</translation>
         </message>
         <message>
             <source>Consent or coagulation was not checked before the needle went in.</source>
@@ -23979,7 +23979,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>The hub was open to air for {seconds:.1f} s with the tip in the body.</source>
-            <translation>L'embase est restée ouverte à l'air {seconds:.1f} s, la pointe dans le corps.</translation>
+            <translation type="unfinished">L'embase est restée ouverte à l'air {seconds:.1f} s, la pointe dans le corps.</translation>
         </message>
         <message>
             <source>Nobody turned the patient after the needle was out.</source>
@@ -23991,107 +23991,107 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion; the core passed {aside:.1f} mm beside its middle.</source>
-            <translation>Prélèvement {ordinal} à {clock} : {mm:.1f} mm de lésion ; la carotte passait à {aside:.1f} mm de son milieu.</translation>
+            <translation type="unfinished">Prélèvement {ordinal} à {clock} : {mm:.1f} mm de lésion ; la carotte passait à {aside:.1f} mm de son milieu.</translation>
         </message>
         <message>
             <source>Sample {ordinal} at {clock}: {mm:.1f} mm of lesion.</source>
-            <translation>Prélèvement {ordinal} à {clock} : {mm:.1f} mm de lésion.</translation>
+            <translation type="unfinished">Prélèvement {ordinal} à {clock} : {mm:.1f} mm de lésion.</translation>
         </message>
         <message>
             <source>{hit}.</source>
-            <translation>{hit}.</translation>
+            <translation type="unfinished">{hit}.</translation>
         </message>
         <message>
             <source>Local anaesthetic at {clock}, {mm:.1f} mm short of pleura or capsule.</source>
-            <translation>Anesthésique local à {clock}, {mm:.1f} mm avant la plèvre ou la capsule.</translation>
+            <translation type="unfinished">Anesthésique local à {clock}, {mm:.1f} mm avant la plèvre ou la capsule.</translation>
         </message>
         <message>
             <source>Local anaesthetic at {clock}, {mm:.1f} mm beyond pleura or capsule.</source>
-            <translation>Anesthésique local à {clock}, {mm:.1f} mm au-delà de la plèvre ou de la capsule.</translation>
+            <translation type="unfinished">Anesthésique local à {clock}, {mm:.1f} mm au-delà de la plèvre ou de la capsule.</translation>
         </message>
         <message>
             <source>a script cannot stop at {stops}</source>
-            <translation>un script ne peut pas s'arrêter à {stops}</translation>
+            <translation type="unfinished">un script ne peut pas s'arrêter à {stops}</translation>
         </message>
         <message>
             <source>{throw} mm</source>
-            <translation>{throw} mm</translation>
+            <translation type="unfinished">{throw} mm</translation>
         </message>
         <message>
             <source>The notch holds {notch} mm and ends {tip} mm before the needle does</source>
-            <translation>L'encoche contient {notch} mm et finit {tip} mm avant l'aiguille</translation>
+            <translation type="unfinished">L'encoche contient {notch} mm et finit {tip} mm avant l'aiguille</translation>
         </message>
         <message>
             <source>Power and time of the generator</source>
-            <translation>Puissance et durée du générateur</translation>
+            <translation type="unfinished">Puissance et durée du générateur</translation>
         </message>
         <message>
             <source>{power} W, {minutes} min: {long} × {short} mm</source>
-            <translation>{power} W, {minutes} min : {long} × {short} mm</translation>
+            <translation type="unfinished">{power} W, {minutes} min : {long} × {short} mm</translation>
         </message>
         <message>
             <source>Held: {tool}</source>
-            <translation>En main : {tool}</translation>
+            <translation type="unfinished">En main : {tool}</translation>
         </message>
         <message>
             <source>Ablated</source>
-            <translation>Détruit</translation>
+            <translation type="unfinished">Détruit</translation>
         </message>
         <message>
             <source>All {n} electrodes are in place</source>
-            <translation>Les {n} électrodes sont en place</translation>
+            <translation type="unfinished">Les {n} électrodes sont en place</translation>
         </message>
         <message>
             <source>Electrode {n} of {of}</source>
-            <translation>Électrode {n} sur {of}</translation>
+            <translation type="unfinished">Électrode {n} sur {of}</translation>
         </message>
         <message>
             <source>Take the electrode (J)</source>
-            <translation>Prendre l’électrode (J)</translation>
+            <translation type="unfinished">Prendre l’électrode (J)</translation>
         </message>
         <message>
             <source>Leave electrode {n} here (J)</source>
-            <translation>Laisser l’électrode {n} ici (J)</translation>
+            <translation type="unfinished">Laisser l’électrode {n} ici (J)</translation>
         </message>
         <message>
             <source>Start the generator (J)</source>
-            <translation>Démarrer le générateur (J)</translation>
+            <translation type="unfinished">Démarrer le générateur (J)</translation>
         </message>
         <message>
             <source>Next step (J)</source>
-            <translation>Étape suivante (J)</translation>
+            <translation type="unfinished">Étape suivante (J)</translation>
         </message>
         <message>
             <source>Electrode {n}: {mm:.1f} mm from its place</source>
-            <translation>Électrode {n} : à {mm:.1f} mm de sa place</translation>
+            <translation type="unfinished">Électrode {n} : à {mm:.1f} mm de sa place</translation>
         </message>
         <message>
             <source>▲ {vessel} {mm:.1f} mm from the zone: it may be cooled there, which is not reckoned</source>
-            <translation>▲ {vessel} à {mm:.1f} mm de la zone : elle peut y être refroidie, ce qui n’est pas compté</translation>
+            <translation type="unfinished">▲ {vessel} à {mm:.1f} mm de la zone : elle peut y être refroidie, ce qui n’est pas compté</translation>
         </message>
         <message>
             <source>✖ the zone reaches {tissue}: {ml:.1f} ml of it</source>
-            <translation>✖ la zone atteint {tissue} : {ml:.1f} ml</translation>
+            <translation type="unfinished">✖ la zone atteint {tissue} : {ml:.1f} ml</translation>
         </message>
         <message>
             <source>{mark} {title}: least margin {mm:.1f} mm of {wanted:g}, lesion {share:.1f} %</source>
-            <translation>{mark} {title} : marge minimale {mm:.1f} mm de {wanted:g}, lésion {share:.1f} %</translation>
+            <translation type="unfinished">{mark} {title} : marge minimale {mm:.1f} mm de {wanted:g}, lésion {share:.1f} %</translation>
         </message>
         <message>
             <source>By the plan: stop {depth:.0f} mm deep for {mm:.0f} mm of lesion</source>
-            <translation>Selon le plan : arrêt à {depth:.0f} mm pour {mm:.0f} mm de lésion</translation>
+            <translation type="unfinished">Selon le plan : arrêt à {depth:.0f} mm pour {mm:.0f} mm de lésion</translation>
         </message>
         <message>
             <source>Fire the gun (Ctrl+J)</source>
-            <translation>Déclencher (Ctrl+J)</translation>
+            <translation type="unfinished">Déclencher (Ctrl+J)</translation>
         </message>
         <message>
             <source>The gun's needle runs ahead by its throw and brings back a core</source>
-            <translation>L'aiguille du pistolet part en avant de sa course et rapporte une carotte</translation>
+            <translation type="unfinished">L'aiguille du pistolet part en avant de sa course et rapporte une carotte</translation>
         </message>
         <message>
             <source>What follows in the usual order</source>
-            <translation>Ce qui suit dans l'ordre habituel</translation>
+            <translation type="unfinished">Ce qui suit dans l'ordre habituel</translation>
         </message>
         <message>
             <source>What may be done in its place</source>
@@ -24119,355 +24119,355 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>How far the gun's needle runs ahead of the outer needle's tip</source>
-            <translation>De combien l'aiguille du pistolet dépasse la pointe de l'aiguille externe</translation>
+            <translation type="unfinished">De combien l'aiguille du pistolet dépasse la pointe de l'aiguille externe</translation>
         </message>
         <message>
             <source>To which side the notch is open, as on a clock seen from the hub: 12 is the front</source>
-            <translation>De quel côté l'encoche s'ouvre, comme sur une horloge vue de l'embase : 12 est l'avant</translation>
+            <translation type="unfinished">De quel côté l'encoche s'ouvre, comme sur une horloge vue de l'embase : 12 est l'avant</translation>
         </message>
         <message>
             <source>Throw</source>
-            <translation>Course</translation>
+            <translation type="unfinished">Course</translation>
         </message>
         <message>
             <source>Notch</source>
-            <translation>Encoche</translation>
+            <translation type="unfinished">Encoche</translation>
         </message>
         <message>
             <source>{hour} o'clock</source>
-            <translation>{hour} h</translation>
+            <translation type="unfinished">{hour} h</translation>
         </message>
         <message>
             <source>Give local anaesthetic (J)</source>
-            <translation>Anesthésier (J)</translation>
+            <translation type="unfinished">Anesthésier (J)</translation>
         </message>
         <message>
             <source>Take the outer needle (J)</source>
-            <translation>Prendre l'aiguille externe (J)</translation>
+            <translation type="unfinished">Prendre l'aiguille externe (J)</translation>
         </message>
         <message>
             <source>Stylet out (J)</source>
-            <translation>Retirer le stylet (J)</translation>
+            <translation type="unfinished">Retirer le stylet (J)</translation>
         </message>
         <message>
             <source>Gun in (J)</source>
-            <translation>Pistolet en place (J)</translation>
+            <translation type="unfinished">Pistolet en place (J)</translation>
         </message>
         <message>
             <source>Gun out (J)</source>
-            <translation>Retirer le pistolet (J)</translation>
+            <translation type="unfinished">Retirer le pistolet (J)</translation>
         </message>
         <message>
             <source>Stylet in (J)</source>
-            <translation>Remettre le stylet (J)</translation>
+            <translation type="unfinished">Remettre le stylet (J)</translation>
         </message>
         <message>
             <source>Local anaesthetic given: {n}×</source>
-            <translation>Anesthésique local injecté : {n}×</translation>
+            <translation type="unfinished">Anesthésique local injecté : {n}×</translation>
         </message>
         <message>
             <source>✔ Sample {n}: {mm:.1f} mm of lesion</source>
-            <translation>✔ Prélèvement {n} : {mm:.1f} mm de lésion</translation>
+            <translation type="unfinished">✔ Prélèvement {n} : {mm:.1f} mm de lésion</translation>
         </message>
         <message>
             <source>✖ Sample {n}: {mm:.1f} mm of lesion, {least:g} mm are needed</source>
-            <translation>✖ Prélèvement {n} : {mm:.1f} mm de lésion, il en faut {least:g} mm</translation>
+            <translation type="unfinished">✖ Prélèvement {n} : {mm:.1f} mm de lésion, il en faut {least:g} mm</translation>
         </message>
         <message>
             <source>entry {x:.1f},{y:.1f},{z:.1f}, {points:.0f} points of the planner</source>
-            <translation>entrée {x:.1f},{y:.1f},{z:.1f}, {points:.0f} points du planificateur</translation>
+            <translation type="unfinished">entrée {x:.1f},{y:.1f},{z:.1f}, {points:.0f} points du planificateur</translation>
         </message>
         <message>
             <source>  {line}</source>
-            <translation>  {line}</translation>
+            <translation type="unfinished">  {line}</translation>
         </message>
         <message>
             <source>no lung is labelled in this patient</source>
-            <translation>aucun poumon n’est marqué chez ce patient</translation>
+            <translation type="unfinished">aucun poumon n’est marqué chez ce patient</translation>
         </message>
         <message>
             <source>this path does not go through the lung</source>
-            <translation>ce trajet ne passe pas par le poumon</translation>
+            <translation type="unfinished">ce trajet ne passe pas par le poumon</translation>
         </message>
         <message>
             <source>a share of {share} of the chest is none</source>
-            <translation>une part {share} du thorax n’en est pas une</translation>
+            <translation type="unfinished">une part {share} du thorax n’en est pas une</translation>
         </message>
         <message>
             <source>blood {radius} mm about the needle's way is none</source>
-            <translation>du sang à {radius} mm autour du trajet de l’aiguille est impossible</translation>
+            <translation type="unfinished">du sang à {radius} mm autour du trajet de l’aiguille est impossible</translation>
         </message>
         <message>
             <source>gravity has no direction</source>
-            <translation>la pesanteur n’a pas de direction</translation>
+            <translation type="unfinished">la pesanteur n’a pas de direction</translation>
         </message>
         <message>
             <source>go on through the outer needle, and watch</source>
-            <translation>continuer par l’aiguille externe, et surveiller</translation>
+            <translation type="unfinished">continuer par l’aiguille externe, et surveiller</translation>
         </message>
         <message>
             <source>withdraw into the pleural space and aspirate</source>
-            <translation>retirer dans l’espace pleural et aspirer</translation>
+            <translation type="unfinished">retirer dans l’espace pleural et aspirer</translation>
         </message>
         <message>
             <source>turn the patient, puncture side down</source>
-            <translation>tourner le patient, côté ponctionné en bas</translation>
+            <translation type="unfinished">tourner le patient, côté ponctionné en bas</translation>
         </message>
         <message>
             <source>give oxygen</source>
-            <translation>donner de l’oxygène</translation>
+            <translation type="unfinished">donner de l’oxygène</translation>
         </message>
         <message>
             <source>place a chest drain</source>
-            <translation>poser un drain thoracique</translation>
+            <translation type="unfinished">poser un drain thoracique</translation>
         </message>
         <message>
             <source>stop and call for help</source>
-            <translation>arrêter et appeler à l’aide</translation>
+            <translation type="unfinished">arrêter et appeler à l’aide</translation>
         </message>
         <message>
             <source>pneumothorax of less than 20 mm, no symptoms</source>
-            <translation>pneumothorax de moins de 20 mm, sans symptômes</translation>
+            <translation type="unfinished">pneumothorax de moins de 20 mm, sans symptômes</translation>
         </message>
         <message>
             <source>pneumothorax of 20 mm or more</source>
-            <translation>pneumothorax de 20 mm ou plus</translation>
+            <translation type="unfinished">pneumothorax de 20 mm ou plus</translation>
         </message>
         <message>
             <source>pneumothorax of 30 mm or more, or one with a saturation below 92 %, or one that came back after aspiration</source>
-            <translation>pneumothorax de 30 mm ou plus, ou avec une saturation inférieure à 92 %, ou revenu après aspiration</translation>
+            <translation type="unfinished">pneumothorax de 30 mm ou plus, ou avec une saturation inférieure à 92 %, ou revenu après aspiration</translation>
         </message>
         <message>
             <source>blood about the needle's way, none coughed</source>
-            <translation>sang autour du trajet de l’aiguille, sans hémoptysie</translation>
+            <translation type="unfinished">sang autour du trajet de l’aiguille, sans hémoptysie</translation>
         </message>
         <message>
             <source>blood coughed, or more than 2 cm about the needle's way</source>
-            <translation>hémoptysie, ou plus de 2 cm autour du trajet de l’aiguille</translation>
+            <translation type="unfinished">hémoptysie, ou plus de 2 cm autour du trajet de l’aiguille</translation>
         </message>
         <message>
             <source>no cough</source>
-            <translation>pas de toux</translation>
+            <translation type="unfinished">pas de toux</translation>
         </message>
         <message>
             <source>coughs blood</source>
-            <translation>crache du sang</translation>
+            <translation type="unfinished">crache du sang</translation>
         </message>
         <message>
             <source>coughs</source>
-            <translation>tousse</translation>
+            <translation type="unfinished">tousse</translation>
         </message>
         <message>
             <source>Saturation {saturation} %, pulse {pulse}/min, pain {pain} of 10, {cough}</source>
-            <translation>Saturation {saturation} %, pouls {pulse}/min, douleur {pain} sur 10, {cough}</translation>
+            <translation type="unfinished">Saturation {saturation} %, pouls {pulse}/min, douleur {pain} sur 10, {cough}</translation>
         </message>
         <message>
             <source>lesion smaller than 4 cm</source>
-            <translation>lésion de moins de 4 cm</translation>
+            <translation type="unfinished">lésion de moins de 4 cm</translation>
         </message>
         <message>
             <source>lesion without contact to the pleura</source>
-            <translation>lésion sans contact avec la plèvre</translation>
+            <translation type="unfinished">lésion sans contact avec la plèvre</translation>
         </message>
         <message>
             <source>3 cm of lung or more on the way</source>
-            <translation>3 cm de poumon ou plus sur le trajet</translation>
+            <translation type="unfinished">3 cm de poumon ou plus sur le trajet</translation>
         </message>
         <message>
             <source>needle of 18 G or thicker</source>
-            <translation>aiguille de 18 G ou plus grosse</translation>
+            <translation type="unfinished">aiguille de 18 G ou plus grosse</translation>
         </message>
         <message>
             <source>pleura punctured more than once</source>
-            <translation>plèvre ponctionnée plus d’une fois</translation>
+            <translation type="unfinished">plèvre ponctionnée plus d’une fois</translation>
         </message>
         <message>
             <source>fissure crossed</source>
-            <translation>scissure traversée</translation>
+            <translation type="unfinished">scissure traversée</translation>
         </message>
         <message>
             <source>bulla crossed</source>
-            <translation>bulle traversée</translation>
+            <translation type="unfinished">bulle traversée</translation>
         </message>
         <message>
             <source>a case mix has {factors} shares of factors and {positions} of positions</source>
-            <translation>un ensemble de cas a {factors} parts de facteurs et {positions} de positions</translation>
+            <translation type="unfinished">un ensemble de cas a {factors} parts de facteurs et {positions} de positions</translation>
         </message>
         <message>
             <source>{share} is no share: it must lie between 0 and 1</source>
-            <translation>{share} n’est pas une part : elle doit être entre 0 et 1</translation>
+            <translation type="unfinished">{share} n’est pas une part : elle doit être entre 0 et 1</translation>
         </message>
         <message>
             <source>the shares of positions add up to {total:g}, not 1</source>
-            <translation>les parts des positions font {total:g} au total, et non 1</translation>
+            <translation type="unfinished">les parts des positions font {total:g} au total, et non 1</translation>
         </message>
         <message>
             <source>{name!r} is no factor; there are {names}</source>
-            <translation>{name!r} n’est pas un facteur ; il y a {names}</translation>
+            <translation type="unfinished">{name!r} n’est pas un facteur ; il y a {names}</translation>
         </message>
         <message>
             <source>lot {name} is {drawn!r}; it must lie between 0 and 1</source>
-            <translation>le tirage {name} vaut {drawn!r} ; il doit être entre 0 et 1</translation>
+            <translation type="unfinished">le tirage {name} vaut {drawn!r} ; il doit être entre 0 et 1</translation>
         </message>
         <message>
             <source>a complication of the attempt: a number is not finite</source>
-            <translation>une complication de l’essai : un nombre n’est pas fini</translation>
+            <translation type="unfinished">une complication de l’essai : un nombre n’est pas fini</translation>
         </message>
         <message>
             <source>no odds of this case mix give the published odds ratios and incidence</source>
-            <translation>aucune cote de cet ensemble de cas ne donne les rapports de cotes et l’incidence publiés</translation>
+            <translation type="unfinished">aucune cote de cet ensemble de cas ne donne les rapports de cotes et l’incidence publiés</translation>
         </message>
         <message>
             <source>no complication happened</source>
-            <translation>aucune complication n’est survenue</translation>
+            <translation type="unfinished">aucune complication n’est survenue</translation>
         </message>
         <message>
             <source>What the monitor shows, and what the patient says</source>
-            <translation>Ce que montre le moniteur, et ce que dit le patient</translation>
+            <translation type="unfinished">Ce que montre le moniteur, et ce que dit le patient</translation>
         </message>
         <message>
             <source>Something is wrong (Shift+J)</source>
-            <translation>Quelque chose ne va pas (Shift+J)</translation>
+            <translation type="unfinished">Quelque chose ne va pas (Shift+J)</translation>
         </message>
         <message>
             <source>Say it as soon as you see it: the time counts</source>
-            <translation>Dites-le dès que vous le voyez : le temps compte</translation>
+            <translation type="unfinished">Dites-le dès que vous le voyez : le temps compte</translation>
         </message>
         <message>
             <source>Do this (Ctrl+Shift+J)</source>
-            <translation>Faire cela (Ctrl+Shift+J)</translation>
+            <translation type="unfinished">Faire cela (Ctrl+Shift+J)</translation>
         </message>
         <message>
             <source>Do what is chosen here</source>
-            <translation>Faire ce qui est choisi ici</translation>
+            <translation type="unfinished">Faire ce qui est choisi ici</translation>
         </message>
         <message>
             <source>What is to be done</source>
-            <translation>Ce qu’il faut faire</translation>
+            <translation type="unfinished">Ce qu’il faut faire</translation>
         </message>
         <message>
             <source>What is to be done about a complication, by its size</source>
-            <translation>Ce qu’il faut faire contre une complication, selon sa taille</translation>
+            <translation type="unfinished">Ce qu’il faut faire contre une complication, selon sa taille</translation>
         </message>
         <message>
             <source>Patient</source>
-            <translation>Patient</translation>
+            <translation type="unfinished">Patient</translation>
         </message>
         <message>
             <source>electrodes {one} and {other} are at one place, {apart:.1f} mm apart: lay them at least {least:g} mm apart, or leave one out</source>
-            <translation>les électrodes {one} et {other} sont à une place, à {apart:.1f} mm : écartez-les de {least:g} mm au moins, ou omettez l’une</translation>
+            <translation type="unfinished">les électrodes {one} et {other} sont à une place, à {apart:.1f} mm : écartez-les de {least:g} mm au moins, ou omettez l’une</translation>
         </message>
         <message>
             <source>ablation: {error}</source>
-            <translation>ablation : {error}</translation>
+            <translation type="unfinished">ablation : {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode}: {error}</source>
-            <translation>ablation : électrode {electrode} : {error}</translation>
+            <translation type="unfinished">ablation : électrode {electrode} : {error}</translation>
         </message>
         <message>
             <source>ablation: electrode {electrode} cannot be placed with {profile_name}: {reasons}</source>
-            <translation>ablation : l’électrode {electrode} ne peut être placée avec {profile_name} : {reasons}</translation>
+            <translation type="unfinished">ablation : l’électrode {electrode} ne peut être placée avec {profile_name} : {reasons}</translation>
         </message>
         <message>
             <source>an ablated zone of {long:g} × {short:g} mm: both must be above 0</source>
-            <translation>une zone détruite de {long:g} × {short:g} mm : les deux doivent dépasser 0</translation>
+            <translation type="unfinished">une zone détruite de {long:g} × {short:g} mm : les deux doivent dépasser 0</translation>
         </message>
         <message>
             <source>an ablation of the record is none: {numbers}</source>
-            <translation>une ablation de l’enregistrement n’en est pas une : {numbers}</translation>
+            <translation type="unfinished">une ablation de l’enregistrement n’en est pas une : {numbers}</translation>
         </message>
         <message>
             <source>least {mm:.1f} mm</source>
-            <translation>minimum {mm:.1f} mm</translation>
+            <translation type="unfinished">minimum {mm:.1f} mm</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
-            <translation>Tirets : zone prévue ; trait plein : zone détruite. Au bord de la lésion : ○ marge voulue, △ moindre, ✕ non couverte</translation>
+            <translation type="unfinished">Tirets : zone prévue ; trait plein : zone détruite. Au bord de la lésion : ○ marge voulue, △ moindre, ✕ non couverte</translation>
         </message>
         <message>
             <source>grid line {line}: there are 1 to {lines}</source>
-            <translation>ligne de la grille {line} : il y en a de 1 à {lines}</translation>
+            <translation type="unfinished">ligne de la grille {line} : il y en a de 1 à {lines}</translation>
         </message>
         <message>
             <source>the grid does not reach there</source>
-            <translation>la grille ne va pas jusque-là</translation>
+            <translation type="unfinished">la grille ne va pas jusque-là</translation>
         </message>
         <message>
             <source>there is no skin under the grid {mm:.0f} mm beside its middle</source>
-            <translation>il n’y a pas de peau sous la grille à {mm:.0f} mm de son milieu</translation>
+            <translation type="unfinished">il n’y a pas de peau sous la grille à {mm:.0f} mm de son milieu</translation>
         </message>
         <message>
             <source>there is no skin under the grid's middle line</source>
-            <translation>il n’y a pas de peau sous la ligne du milieu de la grille</translation>
+            <translation type="unfinished">il n’y a pas de peau sous la ligne du milieu de la grille</translation>
         </message>
         <message>
             <source>entry marked at table {table:.1f} mm, line {line} {offset:+.1f} mm: {error:.1f} mm on the skin from the planned entry</source>
-            <translation>entrée marquée à la table {table:.1f} mm, ligne {line} {offset:+.1f} mm : à {error:.1f} mm sur la peau de l’entrée planifiée</translation>
+            <translation type="unfinished">entrée marquée à la table {table:.1f} mm, ligne {line} {offset:+.1f} mm : à {error:.1f} mm sur la peau de l’entrée planifiée</translation>
         </message>
         <message>
             <source>no entry was marked with the grid</source>
-            <translation>aucune entrée n’a été marquée avec la grille</translation>
+            <translation type="unfinished">aucune entrée n’a été marquée avec la grille</translation>
         </message>
         <message>
             <source>no control scan says a dose of the hand: the exercise does not ask for it</source>
-            <translation>aucun contrôle n’indique de dose à la main : l’exercice ne la demande pas</translation>
+            <translation type="unfinished">aucun contrôle n’indique de dose à la main : l’exercice ne la demande pas</translation>
         </message>
         <message>
             <source>Leave the room</source>
-            <translation>Quitter la salle</translation>
+            <translation type="unfinished">Quitter la salle</translation>
         </message>
         <message>
             <source>Current</source>
-            <translation>Courant</translation>
+            <translation type="unfinished">Courant</translation>
         </message>
         <message>
             <source>Gantry</source>
-            <translation>Statif</translation>
+            <translation type="unfinished">Statif</translation>
         </message>
         <message>
             <source>{ma} mA</source>
-            <translation>{ma} mA</translation>
+            <translation type="unfinished">{ma} mA</translation>
         </message>
         <message>
             <source>Leaving and coming back take {seconds:g} s of the attempt; who stays saves them, and his hand gets its share of the scattered radiation (a teaching estimate)</source>
-            <translation>Sortir et revenir prennent {seconds:g} s de l’essai ; qui reste les économise, et sa main reçoit sa part du rayonnement diffusé (une estimation pour l’enseignement)</translation>
+            <translation type="unfinished">Sortir et revenir prennent {seconds:g} s de l’essai ; qui reste les économise, et sa main reçoit sa part du rayonnement diffusé (une estimation pour l’enseignement)</translation>
         </message>
         <message>
             <source>leaving</source>
-            <translation>sort</translation>
+            <translation type="unfinished">sort</translation>
         </message>
         <message>
             <source>coming back</source>
-            <translation>revient</translation>
+            <translation type="unfinished">revient</translation>
         </message>
         <message>
             <source>{where}: {left:.0f} s</source>
-            <translation>{where} : {left:.0f} s</translation>
+            <translation type="unfinished">{where} : {left:.0f} s</translation>
         </message>
         <message>
             <source>Tube current</source>
-            <translation>Courant du tube</translation>
+            <translation type="unfinished">Courant du tube</translation>
         </message>
         <message>
             <source>Noise of the picture goes as one over the square root of the current, the dose goes as the current</source>
-            <translation>Le bruit de l’image varie comme l’inverse de la racine du courant, la dose comme le courant</translation>
+            <translation type="unfinished">Le bruit de l’image varie comme l’inverse de la racine du courant, la dose comme le courant</translation>
         </message>
         <message>
             <source>Gantry tilt</source>
-            <translation>Inclinaison du statif</translation>
+            <translation type="unfinished">Inclinaison du statif</translation>
         </message>
         <message>
             <source>Tilt of the gantry: + leans the front of the slices towards the head. Slices, and what of the needle lies in them, go along</source>
-            <translation>Inclinaison du statif : + penche l’avant des coupes vers la tête. Les coupes, et ce qui y est de l’aiguille, suivent</translation>
+            <translation type="unfinished">Inclinaison du statif : + penche l’avant des coupes vers la tête. Les coupes, et ce qui y est de l’aiguille, suivent</translation>
         </message>
         <message>
             <source>{path} is no table of a sweep, and no part of one lies beside it: choose what `acus cohort sweep --out` wrote, or is writing</source>
             <translation type="unfinished">{path} n’est pas le tableau d’un balayage, et aucune partie n’est à côté : choisissez ce que `acus cohort sweep --out` a écrit ou écrit</translation>
         </message>
         <message>
-            <source>{path} cannot be read as a table of a sweep: {reason}</source>
-            <translation type="unfinished">{path} ne peut pas être lu comme tableau d’un balayage : {reason}</translation>
+            <source>{path} is no table of a sweep, or is damaged: choose what `acus cohort sweep --out` wrote, or is writing</source>
+            <translation type="unfinished">{path} n&apos;est pas un tableau de balayage, ou est abîmé : choisissez ce que `acus cohort sweep --out` a écrit ou est en train d&apos;écrire</translation>
         </message>
         <message>
             <source>{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one</source>
@@ -24479,7 +24479,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{path}: `acus {command}` is there already; rename it</source>
-            <translation>{path} : `acus {command}` existe déjà ; donnez un autre nom à la commande</translation>
+            <translation type="unfinished">{path} : `acus {command}` existe déjà ; donnez un autre nom à la commande</translation>
         </message>
         <message>
             <source>checklist: consent and coagulation</source>

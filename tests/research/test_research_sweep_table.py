@@ -104,7 +104,7 @@ def test_what_is_no_sweep_is_one_line_that_says_what_to_choose(tmp_path):
         read_sweep(tmp_path / "sweep.parquet")
     garbage = tmp_path / "garbage.parquet"
     garbage.write_bytes(np.random.default_rng(1).bytes(200))
-    with pytest.raises(ResearchError, match="cannot be read as a table of a sweep"):
+    with pytest.raises(ResearchError, match="is no table of a sweep, or is damaged"):
         read_sweep(garbage)
     other = tmp_path / "other.parquet"
     join_parts([], {"seed": int, "total": float}, other)

@@ -300,7 +300,9 @@ def marked(tab):
 def test_a_sweep_is_drawn_along_what_was_varied_and_keeps_what_was_chosen(application, destroy):
     tab = SweepTab()
     destroy(tab)
+    assert tab.plot.isHidden() or tab.plot.parentWidget().isHidden()  # nothing to draw yet
     tab.show_sweep(sweep_of(2, wanted=48))
+    assert not tab.plot.parentWidget().isHidden()
     assert not tab.grown.isHidden()
     assert (tab.grown.value(), tab.grown.maximum()) == (12, 48)
     tab.measure.setCurrentIndex(tab.measure.findData("passed"))

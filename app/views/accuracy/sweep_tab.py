@@ -95,14 +95,21 @@ class SweepTab(QWidget):
         column = QVBoxLayout(self)
         column.addLayout(head)
         column.addWidget(self.grown)
-        column.addLayout(choice)
-        column.addWidget(self.plot, 3)
-        column.addWidget(self.series)
-        column.addWidget(self.means, 2)
+        self._body = QWidget(self)  # an empty diagram and table would say nothing
+        body = QVBoxLayout(self._body)
+        body.setContentsMargins(0, 0, 0, 0)
+        body.addLayout(choice)
+        body.addWidget(self.plot, 3)
+        body.addWidget(self.series)
+        body.addWidget(self.means, 2)
+        column.addWidget(self._body, 1)
+        column.addStretch()
+        self._body.hide()
 
     def show_sweep(self, sweep: SweepTable) -> None:
         """Show a sweep; what was chosen stays where it is still there."""
         self.sweep = sweep
+        self._body.show()
         conditions = [(condition_words(name), name) for name in sweep.conditions]
         measures = [(measure_words(name), name) for name in sweep.measures]
         for box, entries in (
