@@ -249,3 +249,16 @@ def test_the_line_over_the_views_says_them(
 ) -> None:
     step = NextStep(StepKind.PROCEDURE, procedure=shown, inside=inside)
     assert words in step_words(step, by_mouse=True)
+
+
+@pytest.mark.parametrize(
+    "shown",
+    [
+        turned(ToolInHand.ANAESTHETIC),
+        turned(ToolInHand.ANAESTHETIC, checked=CHECKED[:1]),
+        turned(ToolInHand.STYLET, checked=CHECKED, samples=SAMPLED, rolled=True),
+    ],
+)
+def test_no_scan_is_asked_for_where_the_needle_is_not_moved(shown: ProcedureState) -> None:
+    step = NextStep(StepKind.PROCEDURE, procedure=shown, inside=None)
+    assert "By the scans" not in step_words(step, by_mouse=True)

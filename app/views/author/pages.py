@@ -298,9 +298,9 @@ class PatientPage(FormPage):
         self.undrawn = label(
             tr("None is drawn: draw or import some on the page Structures."), "dim"
         )
-        self.rows.addWidget(self.undrawn)
         title = tr("Structures, drawn in the window")
         self.add(("structures",), title, self.risks, lambda _: self._show_risks())
+        self.rows.addWidget(self.undrawn)
         gauges = [(gauge, f"{gauge} G") for gauge in OUTER_DIAMETER]
         self.choice("needle", "gauge", among=gauges)
         self.number("needle", "length_mm", within=(0.0, 400.0, 0.0), lowest="")
