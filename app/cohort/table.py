@@ -13,8 +13,8 @@ from typing import Any, Final, TypeAlias
 
 from app.cohort.cost import Spent
 from app.cohort.errors import CohortError
+from app.core.arrow import arrow
 from app.core.disclaimer import DISCLAIMER
-from app.core.extras import not_installed
 from app.core.files import write_atomically
 from app.core.messages import sentence
 
@@ -28,19 +28,6 @@ _SPENT: Final = b"acus_spent"
 _NOTE: Final = b"acus_note"
 _LARGEST: Final = 1 << 20
 """Rows of a group in the table."""
-
-
-def arrow() -> Any:
-    """Return pyarrow.
-
-    Raises:
-        CohortError: if it is not installed; names the extra.
-    """
-    try:
-        import pyarrow.parquet
-    except ImportError as error:
-        raise not_installed(CohortError, "pyarrow", EXTRA) from error
-    return pyarrow
 
 
 def write_part(path: Path, columns: Columns, rows: Sequence[Row], spent: Spent) -> None:
@@ -57,7 +44,7 @@ def read_part(path: Path, columns: Columns, number: int) -> Spent | None:
         columns: that it must have.
         number: of its rows.
     """
-    pa = arrow()
+    pa = arrow(CohortError, EXTRA)
     try:
         table = pa.parquet.read_table(path, partitioning=None)
         attempts, preparing, working = json.loads((table.schema.metadata or {})[_SPENT])
@@ -74,7 +61,7 @@ def join_parts(parts: Iterable[Path], columns: Columns, out: Path) -> None:
     Raises:
         CohortError: if it cannot be written.
     """
-    pa = arrow()
+    pa = arrow(CohortError, EXTRA)
     tables = [pa.parquet.read_table(part, partitioning=None) for part in parts]
     bare = [table.replace_schema_metadata(None).cast(_schema(columns)) for table in tables]
     whole = pa.concat_tables(bare) if bare else _table(columns, ())
@@ -87,7 +74,7 @@ def join_parts(parts: Iterable[Path], columns: Columns, out: Path) -> None:
 
 
 def _schema(columns: Columns) -> Any:
-    pa = arrow()
+    pa = arrow(CohortError, EXTRA)
     kinds = {str: pa.string(), float: pa.float64(), int: pa.int64(), bool: pa.bool_()}
     return pa.schema([(name, kinds[kind]) for name, kind in columns.items()])
 
@@ -95,12 +82,12 @@ def _schema(columns: Columns) -> Any:
 def _table(columns: Columns, rows: Sequence[Row]) -> Any:
     schema = _schema(columns)
     values = {name: [row.get(name) for row in rows] for name in columns}
-    return arrow().table(values, schema=schema)
+    return arrow(CohortError, EXTRA).table(values, schema=schema)
 
 
 def _bytes(table: Any, metadata: Mapping[bytes, bytes]) -> bytes:
     stream = io.BytesIO()
-    arrow().parquet.write_table(
+    arrow(CohortError, EXTRA).parquet.write_table(
         table.replace_schema_metadata(dict(metadata)),
         stream,
         compression="zstd",

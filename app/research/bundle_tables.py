@@ -10,7 +10,7 @@ import io
 from collections.abc import Mapping
 from typing import Any, Final
 
-from app.core.extras import not_installed
+from app.core.arrow import arrow
 from app.research.codebook import SERIES_FILES, TABLES, Column
 from app.research.errors import ResearchError
 
@@ -18,20 +18,6 @@ EXTRA: Final = "research"
 FOLDER: Final = "parquet/"
 SERIES_TABLE: Final = f"{FOLDER}series.parquet"
 """Every series, one after the other; the column `attempt` says whose."""
-
-
-def arrow() -> Any:
-    """Return pyarrow.
-
-    Raises:
-        ResearchError: if it is not installed; names the extra.
-    """
-    try:
-        import pyarrow.csv
-        import pyarrow.parquet
-    except ImportError as error:
-        raise not_installed(ResearchError, "pyarrow", EXTRA) from error
-    return pyarrow
 
 
 def parquet_tables(files: Mapping[str, bytes]) -> dict[str, Any]:
@@ -44,7 +30,7 @@ def parquet_tables(files: Mapping[str, bytes]) -> dict[str, Any]:
         ResearchError: if pyarrow is not installed.
         pyarrow.ArrowException: if a table is not what the codebook says.
     """
-    pa = arrow()
+    pa = arrow(ResearchError, EXTRA)
     found = {
         f"{FOLDER}{name.removesuffix('.csv')}.parquet": _read(files[name], columns)
         for name, columns in TABLES.items()
@@ -66,7 +52,7 @@ def parquet_files(files: Mapping[str, bytes]) -> dict[str, bytes]:
     found = {}
     for name, table in parquet_tables(files).items():
         stream = io.BytesIO()
-        arrow().parquet.write_table(table, stream, compression="zstd")
+        arrow(ResearchError, EXTRA).parquet.write_table(table, stream, compression="zstd")
         found[name] = stream.getvalue()
     return found
 
@@ -81,7 +67,7 @@ def differing_tables(files: Mapping[str, bytes], parquet: Mapping[str, bytes]) -
     Raises:
         ResearchError: if pyarrow is not installed.
     """
-    pa, wrong = arrow(), []
+    pa, wrong = arrow(ResearchError, EXTRA), []
     try:
         wanted = parquet_tables(files)
     except (pa.ArrowException, ValueError, OSError, EOFError):
@@ -98,7 +84,7 @@ def differing_tables(files: Mapping[str, bytes], parquet: Mapping[str, bytes]) -
 
 
 def _read(data: bytes, columns: tuple[Column, ...]) -> Any:
-    pa = arrow()
+    pa = arrow(ResearchError, EXTRA)
     kinds = {
         "text": pa.string(),
         "number": pa.float64(),

@@ -24467,7 +24467,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>{path} is no table of a sweep, or is damaged: choose what `acus cohort sweep --out` wrote, or is writing</source>
-            <translation type="unfinished">{path} n&apos;est pas un tableau de balayage, ou est abîmé : choisissez ce que `acus cohort sweep --out` a écrit ou est en train d&apos;écrire</translation>
+            <translation type="unfinished">{path} n'est pas un tableau de balayage, ou est abîmé : choisissez ce que `acus cohort sweep --out` a écrit ou est en train d'écrire</translation>
         </message>
         <message>
             <source>{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one</source>

@@ -13,12 +13,12 @@ from PySide6.QtWidgets import QApplication, QToolButton
 from views_exercise_fakes import snapshot, statistics
 from window_rig import plan
 
-from app.research.sweep_table import SweepTable
 from app.session.machine import State
 from app.session.snapshot import BreathHold
 from app.studies.findings import Findings, Sheet
 from app.studies.hard import COLUMNS
 from app.studies.kept import kept, kept_names
+from app.studies.sweep_table import SweepTable
 from app.views.accuracy.budget import EffectCost, SceneCost, advice, lowering, too_much
 from app.views.accuracy.diagram import Diagram
 from app.views.accuracy.feature import AccuracyFeature

@@ -741,6 +741,12 @@ def test_the_author_chooses_how_unsteady_the_simulated_hand_is(author, form):
     assert exercise.hand_level == exercise.level
 
 
+def choose(box, value):
+    """Choose what a box holds under a value, as a hand does."""
+    box.setCurrentIndex(box.findData(value))
+    box.activated.emit(box.currentIndex())
+
+
 @pytest.mark.long("journey")
 def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, form):
     write(form.task.name, "X")
@@ -750,7 +756,7 @@ def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, for
     free = [box.isEnabled() for box in (*sight.views.values(), *sight.locks.values())]
     assert all(free)
     assert sight.views["bullseye"].isChecked()
-    form.task._set_purpose("assessment")
+    choose(form.task.purpose, "assessment")
     exercise = author.editor.exercise
     ticked = {value for value, box in sight.views.items() if box.isChecked()}
     assert ticked == {view.value for view in exercise.shown_views} == {"three_d"}
@@ -761,7 +767,7 @@ def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, for
     assert "control scans alone" in sight.views["bullseye"].toolTip()
     sight.views["three_d"].click()  # what is not shown here is kept for practice
     assert "bullseye" in author.editor.get("views")
-    form.task._set_purpose("practice")
+    choose(form.task.purpose, "practice")
     assert sight.views["bullseye"].isChecked()
     assert sight.views["bullseye"].isEnabled()
     assert not any(box.isChecked() for box in sight.locks.values())

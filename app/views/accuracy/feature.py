@@ -29,9 +29,9 @@ from app.views.reading.lock_words import why_locked
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
-    from app.research.sweep_table import SweepTable
     from app.studies.findings import Findings
     from app.studies.kept import Kept
+    from app.studies.sweep_table import SweepTable
     from app.views.accuracy.page import AccuracyPage
 
 LOOK_AGAIN_MS = 5_000
@@ -186,7 +186,7 @@ class AccuracyFeature(Feature):
             path = path.with_name(path.name.removesuffix(_PARTS))
 
         def read(_: Progress) -> SweepTable:
-            from app.research.sweep_table import read_sweep
+            from app.studies.sweep_table import read_sweep
 
             return read_sweep(path)
 

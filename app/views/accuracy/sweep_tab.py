@@ -25,7 +25,7 @@ from app.views.kit.parts import button, label, table
 from app.views.kit.text import declared, literal, number, tr, tr_n
 
 if TYPE_CHECKING:
-    from app.research.sweep_table import SweepMean, SweepTable
+    from app.studies.sweep_table import SweepMean, SweepTable
 
 _MILLION: Final = 1e6
 _HOUR: Final = 3600.0

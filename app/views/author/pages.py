@@ -229,7 +229,7 @@ class TaskPage(FormPage):
         self.level = self.count("level")
         self.briefing = self.lines("description")
         practice, test = tr("Practice"), tr("Assessment: all controls are locked")
-        self.choice("purpose", among=(("practice", practice), ("assessment", test)))
+        self.purpose = self.choice("purpose", among=(("practice", practice), ("assessment", test)))
         self.note(("id",))
         self.kept = label("", "dim")
         self.rows.addWidget(self.kept)

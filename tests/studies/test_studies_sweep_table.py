@@ -9,8 +9,8 @@ from scipy.stats import ttest_1samp
 from app.cohort.cost import Spent
 from app.cohort.sweeping import columns
 from app.cohort.table import join_parts, write_part
-from app.research.errors import ResearchError
-from app.research.sweep_table import SweepTable, read_sweep
+from app.studies.errors import StudyError
+from app.studies.sweep_table import SweepTable, read_sweep
 
 PARAMETER = "puncture.force_scale"
 
@@ -100,13 +100,13 @@ def test_the_interval_of_a_share_is_that_of_newcombes_table(passed, of, lower, u
 
 
 def test_what_is_no_sweep_is_one_line_that_says_what_to_choose(tmp_path):
-    with pytest.raises(ResearchError, match="no part of one lies beside it: choose what"):
+    with pytest.raises(StudyError, match="no part of one lies beside it: choose what"):
         read_sweep(tmp_path / "sweep.parquet")
     garbage = tmp_path / "garbage.parquet"
     garbage.write_bytes(np.random.default_rng(1).bytes(200))
-    with pytest.raises(ResearchError, match="is no table of a sweep, or is damaged"):
+    with pytest.raises(StudyError, match="is no table of a sweep, or is damaged"):
         read_sweep(garbage)
     other = tmp_path / "other.parquet"
     join_parts([], {"seed": int, "total": float}, other)
-    with pytest.raises(ResearchError, match="no duration_s, exercise, passed, version"):
+    with pytest.raises(StudyError, match="no duration_s, exercise, passed, version"):
         read_sweep(other)

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from app.core.arrow import arrow
 from app.core.messages import sentence
-from app.research.bundle_tables import arrow
-from app.research.errors import ResearchError
+from app.studies.errors import StudyError
 
 PASSED: Final = "passed"
 """Measure whose mean is a share, 0 to 1."""
@@ -26,8 +26,6 @@ _SEED: Final = "seed"
 _NAMES: Final = ("exercise", "version")
 _MEASURES: Final = ("total", PASSED, "duration_s")
 _VALUE: Final = "value_"
-_Z: Final = 1.959963984540054
-"""Of a normal distribution 95 % lie within so many standard deviations."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,15 +127,15 @@ def read_sweep(path: Path) -> SweepTable:
         path: of the table, `.parquet`.
 
     Raises:
-        ResearchError: where neither is there, or the file is no table of a sweep; names the extra
+        StudyError: where neither is there, or the file is no table of a sweep; names the extra
             where pyarrow is not installed.
     """
-    pa = arrow()
+    pa = arrow(StudyError, "research")
     folder = path.with_name(f"{path.name}.parts")
     parts = sorted(folder.glob("*.parquet"))
     finished = path.is_file()
     if not finished and not parts:
-        raise ResearchError(
+        raise StudyError(
             sentence(
                 "{path} is no table of a sweep, and no part of one lies beside it: choose what "
                 "`acus cohort sweep --out` wrote, or is writing",
@@ -156,7 +154,7 @@ def read_sweep(path: Path) -> SweepTable:
         columns = {name: whole.column(name).to_pylist() for name in whole.column_names}
         lacking = {_SEED, "total", *_NAMES, *_MEASURES} - columns.keys()
     except (OSError, ValueError, TypeError, pa.ArrowException) as error:
-        raise ResearchError(
+        raise StudyError(
             sentence(
                 "{path} is no table of a sweep, or is damaged: choose what "
                 "`acus cohort sweep --out` wrote, or is writing",
@@ -164,7 +162,7 @@ def read_sweep(path: Path) -> SweepTable:
             )
         ) from error
     if lacking:
-        raise ResearchError(
+        raise StudyError(
             sentence(
                 "{path} is no table of a sweep (no {columns}): `acus cohort sweep` writes one",
                 path=path,
@@ -184,18 +182,17 @@ def _wanted(folder: Path) -> int | None:
 
 
 def _mean(values: Sequence[float], share: bool) -> tuple[float, float, float]:
-    """Return a mean with its interval of 95 %."""
-    number = len(values)
-    mean = math.fsum(values) / number
-    if share:
-        middle = (mean + _Z**2 / (2 * number)) / (1.0 + _Z**2 / number)
-        half = _Z * math.sqrt(mean * (1.0 - mean) / number + (_Z / (2 * number)) ** 2)
-        half /= 1.0 + _Z**2 / number
-        return mean, middle - half, middle + half
-    from app.research.bundle_figures import t_interval
+    """Return a mean with its interval of 95 %: Wilson's (1927) of a share, else Student's t."""
+    from scipy.stats import binomtest, ttest_1samp
 
-    half = t_interval(values)
-    return mean, mean - half, mean + half
+    number, mean = len(values), math.fsum(values) / len(values)
+    if share:
+        lower, upper = binomtest(round(sum(values)), number).proportion_ci(method="wilson")
+    elif number < 2 or len(set(values)) == 1:  # which tell no interval
+        return mean, mean, mean
+    else:
+        lower, upper = ttest_1samp(values, 0.0).confidence_interval()
+    return mean, float(lower), float(upper)
 
 
 def _order(value: Any) -> tuple[bool, float, str]:
