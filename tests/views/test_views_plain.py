@@ -34,7 +34,10 @@ TEXT_OF = {
 """What shows markup, by name, and which argument is the text."""
 OWN_WORDS = {"author/feature.py"}
 """Files that ask with words of the program's own that stand in a variable."""
-RICH = {"accuracy/diagram.py": "its key has colours; each family in it is escaped"}
+RICH = {
+    "accuracy/diagram.py": "its key has colours; each family in it is escaped",
+    "accuracy/sweep_tab.py": "so has the key of its lines; each value in it is escaped",
+}
 """Files of a label with markup, each with its reason."""
 
 
