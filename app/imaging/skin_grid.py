@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from math import hypot
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -19,11 +19,13 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.core.messages import sentence
-from app.imaging.body import Body, find_body
 from app.imaging.errors import InvalidEntryError
 from app.imaging.interpolation import interpolate
 from app.imaging.scan_order import ScanNeedle
 from app.imaging.volume import Volume
+
+if TYPE_CHECKING:
+    from app.imaging.body import Body
 
 Place = tuple[float, float, float]
 
@@ -285,6 +287,8 @@ def grid_on(volume: Volume, spec: GridSpec) -> SkinGrid:
     """Return a grid on the skin of a CT; its body is looked for once."""
     there = _MADE.get(volume)
     if there is None or there.spec != spec:
+        from app.imaging.body import find_body  # scipy: loaded since there is a patient
+
         there = SkinGrid(find_body(volume), spec)
         _MADE[volume] = there
     return there

@@ -31,7 +31,6 @@ from app.session.control_scan import KIND as SCAN
 from app.session.control_scan import ControlScan, Taking
 from app.session.needle_now import NeedleNow
 from app.session.scan_reading import ScanReading, air_rim_mm, blood_radius_mm
-from app.simulation.hands import SUFFIX
 
 if TYPE_CHECKING:
     from app.imaging.volume import Volume
@@ -105,6 +104,8 @@ class ScriptedAnswers:
     @classmethod
     def of(cls, skill: str, seed: int = 0) -> ScriptedAnswers | None:
         """Return those of a skill by its name; None for none that is known."""
+        from app.simulation.hands import SUFFIX  # compiled: the start page waits for no kernels
+
         manner = MANNERS.get(skill.removesuffix(SUFFIX))
         return None if manner is None else cls(manner, seed)
 

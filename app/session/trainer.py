@@ -61,7 +61,6 @@ from app.session.running import RunningAttempt
 from app.session.scan_reading import ScanReading
 from app.session.scored import scorer
 from app.session.scripted_answers import Pictures, ScanReader, ScriptedAnswers
-from app.session.scripted_steps import ScriptedSteps
 from app.session.snapshot import Snapshot, advice
 from app.session.still_hand import StillHand
 from app.session.ticker import (
@@ -82,6 +81,7 @@ if TYPE_CHECKING:
     from app.device.control.loop import Loop
     from app.exercises.schema import Exercise
     from app.session.header import SessionHeader
+    from app.session.scripted_steps import ScriptedSteps
     from app.tracking.needle_tracker import NeedleTracker
 
 TICK_PERIOD: Final = 0.02
@@ -317,6 +317,9 @@ class Trainer:
                 words, data = begin_words(self._touching.state)
                 self._running.say(TASK, words, now, data)
             if exercise_part := self._exercise.procedure:
+                # Hands are compiled, and there before an attempt is: the start page has none.
+                from app.session.scripted_steps import ScriptedSteps
+
                 self._procedure = ProcedureState.at_begin(
                     exercise_part, self._placed.plan, self._tissues, self._ablation
                 )

@@ -62,6 +62,7 @@ class Courier:
     def __post_init__(self) -> None:
         self._waiting: dict[str, list[str]] = {name: [] for name in self.to}
         self.ended: list[str] = []
+        self._moved = time.monotonic()
         self._over = threading.Event()
         self._threads = [
             threading.Thread(target=self._run, args=(name,), daemon=True) for name in self.to
@@ -83,16 +84,16 @@ class Courier:
             self._waiting[to].append(self.ended[-1])
 
     def finish(self, seconds: float) -> bool:
-        """Wait until nothing waits, or nothing has gone for so long, then end.
+        """Wait until nothing waits, or no command has done its work for so long, then end.
 
         Returns:
             Whether nothing is left.
         """
-        gone, end = len(self.sendings), time.monotonic() + seconds
-        while any(self._waiting.values()) and time.monotonic() < end:
+        begun = time.monotonic()
+        while any(self._waiting.values()):
+            if time.monotonic() > max(begun, self._moved) + seconds:
+                break
             time.sleep(0.1)
-            if len(self.sendings) > gone and self.sendings[-1].done:
-                gone, end = len(self.sendings), time.monotonic() + seconds
         self._over.set()
         for one in self._threads:
             one.join(60.0)
@@ -118,6 +119,7 @@ class Courier:
         began = time.monotonic()
         done, said, _ = acus(self.folder, *words)
         self.sendings.append(Sending(began, time.monotonic(), to, done, said))
+        self._moved = time.monotonic() if done else self._moved
         return done
 
     def _archive(self, numbers: list[str]) -> bool:
@@ -129,6 +131,7 @@ class Courier:
                     now = time.monotonic()
                     self.sendings.append(Sending(now, now, "archive", False, said))
                     return False
+                self._moved = time.monotonic()
                 self.objects[number] = [
                     str(pydicom.dcmread(one, stop_before_pixels=True).SOPInstanceUID)
                     for one in facts["files"]

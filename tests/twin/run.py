@@ -12,6 +12,8 @@ from tests.twin.laboratory import Laboratory
 from tests.twin.part import BrokenRuleError
 from tests.twin.trials import Trial, run_trial
 
+SILENT_S = 300.0
+"""What goes out after attempts is given up when no command has done its work for so long [s]."""
 LOST_S = 1.0
 """A program that is killed loses so much of its record at most [s] (docs/sessions.md)."""
 
@@ -83,7 +85,7 @@ class Twin:
             self.outcome.broken.append(str(error))
         time.sleep(0.5)
         lab.trainer.stop()
-        if not lab.courier.finish(120.0):
+        if not lab.courier.finish(SILENT_S):
             self.outcome.broken.append("not all attempts were sent")
         tracks = self._records(lab)
         for name, compare in (("slicer", of_slicer), ("gui", of_gui)):

@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from app.core.arrays import FloatArray
 from app.planning.ablation.zone import Zone
@@ -171,6 +170,8 @@ def margins_mm(
     if in_organ is not None and len(bare):
         bare = bare[in_organ(bare)]
     if len(bare):
+        from scipy.spatial import cKDTree  # the window is there before it
+
         best = np.minimum(best, cKDTree(bare).query(inside)[0])
     for number, zone in enumerate(zones):  # where the nearest place is no crease, it is known
         at, depth = zone.nearest_mm(inside), zone.depths_mm(inside)

@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import ndimage
 
 from app.core.arrays import FloatArray, read_only
 from app.imaging.field.naming import LUNG_VESSEL, SMALL_VESSEL
@@ -71,6 +70,8 @@ class _Signed:
 
     @classmethod
     def of(cls, field: TissueField, code: int, target: FloatArray) -> _Signed:
+        from scipy import ndimage  # the window is there before it
+
         to_voxel, shape = field.inverse_mm, np.array(field.labels.shape[::-1])
         ijk = np.rint(to_voxel[:3, :3] @ target + to_voxel[:3, 3]).astype(int)
         first = np.clip(ijk - _MOST_VOXELS, 0, shape - 1)
@@ -123,6 +124,8 @@ class _Signed:
         return float(np.linalg.norm(self.affine_mm[:3, :3], axis=0).max())
 
     def _between(self, values: FloatArray, points_mm: FloatArray) -> FloatArray:
+        from scipy import ndimage
+
         inverse = np.linalg.inv(self.affine_mm)
         ijk = np.asarray(points_mm, np.float64) @ inverse[:3, :3].T + inverse[:3, 3]
         found = ndimage.map_coordinates(values, ijk.T[::-1], order=1, mode="nearest")
