@@ -425,6 +425,8 @@ class NextSteps:
 
         Where nobody is told where the needle is, the order of the steps is said all the same.
         """
+        if step.kind is StepKind.MOVE:  # what comes first once the attempt runs
+            return replace(step, procedure=state)
         if step.kind not in _DURING:
             return step
         own = NextStep(StepKind.PROCEDURE, procedure=state, inside=inside)

@@ -14701,6 +14701,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pause: Die Nadel schwingt in der simulierten Hand; es geht von selbst weiter.</translation>
         </message>
         <message>
+            <source>Ready: the clock starts when you move. Then: {step}</source>
+            <translation type="unfinished">Bereit: Die Uhr läuft, sobald Sie sich bewegen. Danach: {step}</translation>
+        </message>
+        <message>
             <source>By the scans (S): {step}</source>
             <translation type="unfinished">Nach den Scans (S): {step}</translation>
         </message>

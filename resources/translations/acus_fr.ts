@@ -14701,6 +14701,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En pause : l’aiguille oscille dans la main simulée ; l’essai reprend de lui-même.</translation>
         </message>
         <message>
+            <source>Ready: the clock starts when you move. Then: {step}</source>
+            <translation type="unfinished">Prêt : le chrono part dès que vous bougez. Ensuite : {step}</translation>
+        </message>
+        <message>
             <source>By the scans (S): {step}</source>
             <translation type="unfinished">D’après les scans (S) : {step}</translation>
         </message>

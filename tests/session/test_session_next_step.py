@@ -282,3 +282,13 @@ def test_who_is_out_of_the_room_for_a_scan_is_told_for_how_long(live):
         assert (step.kind, step.left) == (StepKind.AWAY, 12.0)
     ready = replace(now, state=State.READY)
     assert steps(plan).of(ready, live=live).kind is StepKind.START
+
+
+def test_before_the_first_movement_it_is_known_which_step_comes_then():
+    plan = placed()
+    begun = ProcedureState(BIOPSY, ToolInHand.STYLET)
+    now = replace(moment(plan, -0.01, state=State.WITHDRAWING), procedure=begun, ready=True)
+    step = steps(plan).of(now)
+    assert step.kind is StepKind.MOVE
+    assert step.procedure is begun
+    assert steps(plan).of(replace(now, ready=False)).procedure is None

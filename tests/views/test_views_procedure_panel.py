@@ -140,6 +140,13 @@ def test_every_tool_has_its_order_on_the_line_over_the_views() -> None:
     assert len(words) == len(TOOLS) + 2
 
 
+def test_before_the_first_movement_the_line_says_what_comes_then() -> None:
+    step = NextStep(StepKind.MOVE, procedure=turned(ToolInHand.ANAESTHETIC))
+    assert step_words(step, True) == (
+        "Ready: the clock starts when you move. Then: Ask for consent (J)"
+    )
+
+
 def test_where_control_scans_guide_every_step_can_be_done_by_the_key(panel: ProcedurePanel) -> None:
     tools = (
         state(ToolInHand.ANAESTHETIC),
