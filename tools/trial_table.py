@@ -27,7 +27,7 @@ from app.compose.skill_scores import (
 )
 from app.compose.trial import Trials
 from app.core import paths
-from app.exercises.library import load_exercise
+from app.exercises.library import library, load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
 from app.scoring.result import Score
@@ -47,8 +47,9 @@ Job = tuple[str, str, int]
 
 def shipped() -> list[str]:
     """Exercises that come with the program, the easiest first."""
-    names = [file.stem for file in (paths.resources() / "exercises").glob("*.yaml")]
-    return sorted(names, key=lambda name: (load_exercise(name).level, name))
+    names = {file.stem for file in (paths.resources() / "exercises").glob("*.yaml")}
+    found = sorted((one.level, one.id) for one in library() if one.id in names)
+    return [name for _, name in found]
 
 
 def kind_of_attempts(exercise: Exercise) -> str:

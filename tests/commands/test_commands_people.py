@@ -245,11 +245,11 @@ def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, mon
 OPEN_TO_ALL = {
     *("exercise list", "exercise suggest", "exercise validate", "exercise schema"),
     *("session list", "session recover", "store status", "store rebuild", "session gather"),
-    *("research verify", "research power"),
+    *("research verify", "research power", "course plans"),
 }
 """Of these nouns, what needs no instructor: `session list` lists what is nobody's, `session gather`
 moves records from a folder that its own account owns and shows none, `research verify` reads a file
-that names nobody and `research power` reads nothing."""
+that names nobody, `research power` reads nothing and `course plans` lists what ships."""
 
 
 @pytest.mark.long("journey")
@@ -298,6 +298,7 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         ("course", "list"),
         ("course", "show", "c"),
         ("course", "save", tmp_path / "c.yaml"),
+        ("course", "begin", "lung-biopsy-in-six-units", "--on", "2026-11-30"),
         ("store", "backup", "--out", out),
         ("store", "restore", out),
         ("store", "empty-trash"),

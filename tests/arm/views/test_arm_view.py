@@ -423,7 +423,8 @@ def test_nothing_begins_while_the_needle_is_not_there(planned, settle) -> None:
 def test_where_scans_guide_the_arm_takes_them_on_its_way(planned, settle) -> None:
     window, arm, trainer = fetched(planned, settle)
     scans = []
-    trainer.scan = lambda order=None: scans.append(order)
+    trainer.scan = lambda *order: scans.append(order)
+    trainer.end = lambda: None
     run = window.conductor.controller.run
     object.__setattr__(run, "shown", Shown(live=False))
     assert settle(lambda: arm.play.state is PlayState.HOLDING)
