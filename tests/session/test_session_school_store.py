@@ -211,6 +211,31 @@ def test_a_station_that_lost_its_disk_gets_its_own_attempts_back(
 
 
 @pytest.mark.long("journey")
+def test_limits_hold_after_a_meeting_that_was_broken_off_behind_what_was_sent(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
+) -> None:
+    head, north, south = school(tmp_path, monkeypatch)
+    for station in (head, north, south, north):  # who has nothing more to take in
+        meet(station, place)
+    ada = key_of("Ada")
+    for _ in range(3):  # the course allows two
+        north.record(ada)
+    with monkeypatch.context() as cut:
+        cut.setattr(SchoolStore, "after", cut_off)
+        with pytest.raises(UnreachableStoreError):
+            meet(north, place)
+    assert meet(north, place).sent == 0
+    meet(south, place)
+    assert stored(north) == stored(south)
+    assert len(stored(north)["excess"]) == 1
+
+
+def cut_off(*_: object) -> None:
+    """Lose the line."""
+    raise UnreachableStoreError("the line is cut")
+
+
+@pytest.mark.long("journey")
 def test_remarks_travel_and_the_later_one_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
 ) -> None:

@@ -88,12 +88,15 @@ class SyncState:
         left: places of packets that could not be taken yet.
         files: SHA-256 of courses and exercises that came from the store.
         confirmed: attempts of this station that are there.
+        held: whether limits were held since the last packet was sent; a meeting that was broken
+            off after it has not done so.
     """
 
     place: ReadPlace = field(default_factory=ReadPlace)
     left: frozenset[int] = frozenset()
     files: frozenset[str] = frozenset()
     confirmed: int = 0
+    held: bool = True
 
     @classmethod
     def of(cls, people: People) -> SyncState:
@@ -105,6 +108,7 @@ class SyncState:
                 frozenset(map(int, document["left"])),
                 frozenset(map(str, document["files"])),
                 int(document["confirmed"]),
+                bool(document.get("held")),
             )
         except (ValueError, LookupError, TypeError):
             return cls()
@@ -117,6 +121,7 @@ class SyncState:
             "left": sorted(self.left),
             "files": sorted(self.files),
             "confirmed": self.confirmed,
+            "held": self.held,
         }
         with people.database.write() as connection:
             put_setting(connection, STATE, json.dumps(document))
@@ -156,9 +161,10 @@ def synchronise(
         at.erase()
         if place.gives_course:
             at.give_course()
-        if at.result.sent or at.changed:
+        if at.result.sent or at.changed or not at.state.held:
             with people.database.write() as connection:
                 excess = hold_limits(connection, people.folder)
+            at.state = replace(at.state, held=True)
             at.result = replace(at.result, gathered=replace(at.result.gathered, excess=excess))
         at.state.keep(people)
     if at.result.sent or at.changed:
@@ -197,6 +203,9 @@ class _Synchronising:
         own = OwnThings.read(self.folder, self.people, self.key)
         there = self.store.own(self.key.station)
         wanted = list(missing(own, there))
+        if wanted:  # whatever breaks this off, limits are held the next time
+            self.state = replace(self.state, held=False)
+            self.state.keep(self.people)
         for number, some in enumerate(_parts(wanted)):
             progress.report(number * _PACKETS / len(wanted), sentence("sending"))
             packets = [(item, own.packet(kind, item)) for kind, item in some]
