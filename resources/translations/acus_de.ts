@@ -5832,10 +5832,6 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">eine Handdosis von {dose} µSv: es muss eine Zahl sein, nicht negativ</translation>
         </message>
         <message>
-            <source>no metric {name!r}; there are {metrics}</source>
-            <translation type="unfinished">es gibt keine Messgröße {name!r}; vorhanden sind {metrics}</translation>
-        </message>
-        <message>
             <source>metric {name!r} cannot be used: {metrics_fault}</source>
             <translation type="unfinished">die Messgröße {name!r} ist nicht verwendbar: {metrics_fault}</translation>
         </message>
@@ -14227,6 +14223,10 @@ frei wählbar</translation>
             <translation type="unfinished">Kontrollscan</translation>
         </message>
         <message>
+            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm</source>
+            <translation type="unfinished">Kontrollscan {n} bei {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm</translation>
+        </message>
+        <message>
             <source>Mark the entry</source>
             <translation type="unfinished">Einstich anzeichnen</translation>
         </message>
@@ -14315,10 +14315,6 @@ frei wählbar</translation>
 Set table and slices, then press the pedal (S).</source>
             <translation type="unfinished">Noch kein Kontrollscan.
 Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</translation>
-        </message>
-        <message>
-            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
-            <translation type="unfinished">Kontrollscan {n} bei {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
             <source>Messages</source>

@@ -5832,10 +5832,6 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">une dose à la main de {dose} µSv : ce doit être un nombre, non négatif</translation>
         </message>
         <message>
-            <source>no metric {name!r}; there are {metrics}</source>
-            <translation type="unfinished">aucun indicateur {name!r} ; il existe {metrics}</translation>
-        </message>
-        <message>
             <source>metric {name!r} cannot be used: {metrics_fault}</source>
             <translation type="unfinished">l’indicateur {name!r} est inutilisable : {metrics_fault}</translation>
         </message>
@@ -14227,6 +14223,10 @@ réglable</translation>
             <translation type="unfinished">Scan de contrôle</translation>
         </message>
         <message>
+            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm</source>
+            <translation type="unfinished">Scan de contrôle {n} à {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm</translation>
+        </message>
+        <message>
             <source>Mark the entry</source>
             <translation type="unfinished">Marquer l’entrée</translation>
         </message>
@@ -14315,10 +14315,6 @@ réglable</translation>
 Set table and slices, then press the pedal (S).</source>
             <translation type="unfinished">Pas encore de scan de contrôle.
 Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
-        </message>
-        <message>
-            <source>Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</source>
-            <translation type="unfinished">Scan de contrôle {n} à {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})</translation>
         </message>
         <message>
             <source>Messages</source>

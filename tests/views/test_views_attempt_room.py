@@ -17,6 +17,7 @@ from app.core import state_vector as sv
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.session.machine import State
+from app.session.shown_views import Shown
 from app.views.exercise.attempt_rail import AttemptRail, RailFigures
 from app.views.exercise.breath_strip import BreathStrip
 from app.views.exercise.live import LiveFigures
@@ -107,11 +108,21 @@ def test_the_exercises_own_layout_is_the_one_of_the_attempt(window, patient, set
 def test_without_bullseye_and_3d_the_ct_has_all_of_it(window, patient, settle):
     begun(window, patient, start=False)
     workspace = window.workspace
-    workspace.has_cell = False
+    workspace.has_more_than_scan = False
     workspace.scene.set_off("not here")
     workspace.room.begin()
     assert workspace.grid.shown.panes == ("in_plane", "in_plane_90")
     assert workspace.grid.shown.columns == 20
+    workspace.room.end()
+
+
+@pytest.mark.parametrize("has_hand", [True, False])
+def test_where_a_script_is_watched_by_scans_no_cell_is_empty(window, patient, has_hand):
+    workspace = window.workspace
+    begun(window, patient, start=False)
+    workspace.show_views(Shown(live=False), has_hand)
+    workspace.room.begin()
+    assert ("bullseye" in workspace.grid.shown.panes) == has_hand
     workspace.room.end()
 
 

@@ -135,3 +135,12 @@ def test_of_five_slices_those_about_the_tip_are_in_sight(window) -> None:
     view.show_scan(scan.picture(patient_of((1, 0, 0, 0, 1, 0))), scan, 3.0)
     assert [tile.words for tile in view.wall.tiles[0]] == ["S 148.0", "S 144.0", "S 140.0"]
     assert caption(scan, 3.0).startswith("Control scan 1 at 0:03")
+
+
+def test_the_caption_says_once_that_its_doses_are_estimates() -> None:
+    needle = ScanNeedle(np.array([5.0, -150.0, 144.0]), np.array([5.0, 0.0, 144.0]))
+    scan = ControlScan(1, 3.0, ScanOrder(140.0, 3, 3.0), needle, np.zeros(3), 3.85)
+    plain = "Control scan 1 at 0:03 · 3 × 3 mm · 3.9 mGy·cm"
+    assert caption(scan, 3.0) == f"{plain} (teaching estimate)"
+    scan = replace(scan, hand_usv=2.5)
+    assert caption(scan, 3.0) == f"{plain} · hand 2.5 µSv (teaching estimate)"

@@ -431,13 +431,14 @@ def caption(scan: ControlScan, shown: float) -> str:
     """Say which scan it is; what it shows of the needle is for the eyes."""
     order = scan.order
     told = tr(
-        "Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})",
+        "Control scan {n} at {time} · {slices} × {mm:g} mm · {dose:.1f} mGy·cm",
         n=scan.number,
         time=clock_text(shown),
         slices=order.slices,
         mm=order.slice_mm,
         dose=scan.dose,
-        estimate=tr(TEACHING_ESTIMATE),
     )
     chosen = translated(scan.chosen)
+    if scan.hand_usv is None or scan.choice.leaves:  # else the dose of the hand is said to be one
+        told += f" ({tr(TEACHING_ESTIMATE)})"
     return f"{told} · {chosen}" if chosen else told

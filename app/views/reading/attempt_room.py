@@ -53,7 +53,7 @@ class Furniture(Protocol):
 
     layout_name: str
     has_bullseye: bool
-    has_cell: bool
+    has_more_than_scan: bool
     is_left_handed: bool
     grid: ViewGrid
     side: SidePanel
@@ -190,7 +190,8 @@ class AttemptRoom(QObject):
     def layout(self) -> Layout:
         """Return how the panes are arranged now."""
         page = self._page
-        beside = [BULLSEYE] if page.has_cell else []
+        # The scan has the place of the slices here: where its cell held nothing else, it is empty.
+        beside = [BULLSEYE] if page.has_more_than_scan else []
         if not page.scene.off:
             beside.append(SCENE)
         return attempt_layout(self.layout_name, tuple(beside), page.is_left_handed)

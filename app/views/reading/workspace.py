@@ -148,7 +148,7 @@ class WorkspacePage(QWidget):
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
         self._bar: QWidget | None = None
         self.is_layout_fixed = self.is_cell_fixed = False
-        self.has_cell = True
+        self.has_cell = self.has_more_than_scan = True
         for pane in self.slices:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
             pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
@@ -288,6 +288,7 @@ class WorkspacePage(QWidget):
         pad, gauge = shows(ViewName.BULLSEYE), shows(ViewName.FORCE_GAUGE)
         self.needle_cell.set_shown(scanning, has_hand, pad, gauge)
         self.has_cell = scanning or has_hand or pad or gauge
+        self.has_more_than_scan = has_hand or (pad and not scanning) or gauge
         self.is_cell_fixed = bool(why_fixed)
         self.scene.set_off("" if shows(ViewName.THREE_D) else off_words(why_fixed))
         self.tracker_panel.set_off("" if shows(ViewName.CAMERAS) else off_words(why_fixed))
