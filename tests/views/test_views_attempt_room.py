@@ -160,6 +160,21 @@ def test_the_way_back_from_a_scan_is_seen_on_a_low_rail_without_scrolling(applic
     assert rail.pictures.visibleRegion().boundingRect() == rail.pictures.rect()
 
 
+def test_scan_end_and_abort_are_seen_on_a_low_rail_however_much_stands_above(window, patient):
+    begun(window, patient, start=False)
+    panel, room = window.workspace.exercise_panel, window.workspace.room
+    buttons = panel.tools.buttons
+    room.begin()
+    room.rail.resize(room.rail.width(), 330)
+    pressed = (buttons.scan, buttons.end, buttons.abort)
+    assert not buttons.isHidden()
+    assert not room.rail.findChild(QScrollArea).isAncestorOf(buttons)
+    assert {panel.tools.isAncestorOf(one) for one in pressed} == {False}
+    room.end()
+    assert {panel.tools.isAncestorOf(one) for one in pressed} == {True}
+    assert panel.tools.layout().indexOf(buttons) == panel.tools.layout().indexOf(panel.enable) - 1
+
+
 def test_the_rail_names_a_drill_in_one_line_and_else_has_no_line_for_it(application):
     rail = AttemptRail()
     rail.suit_window(1366)

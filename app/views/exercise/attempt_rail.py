@@ -234,7 +234,7 @@ class AttemptRail(QWidget):
         self.breath = BreathStrip(self)
         self.pictures = _quiet()
         self.panel = _quiet()
-        self._place = QVBoxLayout()
+        self._place, self._foot = QVBoxLayout(), QVBoxLayout()
         self._note, self._health, self._busy = (PlainLabel(self) for _ in range(3))
         self._light = self._slow = ""
         self._lay_out()
@@ -248,10 +248,12 @@ class AttemptRail(QWidget):
         """Stand at the top again: what is to be done next is said there."""
         self._area.verticalScrollBar().setValue(0)
 
-    def take(self, tools: QWidget) -> None:
-        """Let the attempt's own buttons stand here."""
+    def take(self, tools: QWidget, buttons: QWidget) -> None:
+        """Let an attempt's tools stand here, and its buttons where no scrolling hides them."""
         self._place.addWidget(tools)
-        tools.show()
+        self._foot.addWidget(buttons)
+        for widget in (tools, buttons):
+            widget.show()
 
     def show_figures(self, figures: LiveFigures | None) -> None:
         """Show a moment of the attempt; None without one."""
@@ -353,7 +355,10 @@ class AttemptRail(QWidget):
         self._area: QScrollArea = scrolled(inner, self)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._area)
+        outer.setSpacing(0)
+        outer.addWidget(self._area, 1)
+        self._foot.setContentsMargins(GRID, GRID, GRID, GRID)
+        outer.addLayout(self._foot)
 
 
 def _health(item: StatusItem) -> str:

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
+from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
@@ -67,8 +67,8 @@ class AttemptActions(QWidget):
             tr("Abort (hold Esc)"),
             tr("Set the force to zero at once; the attempt is saved but not scored"),
         )
-        self._keys: list[tuple[QShortcut, QPushButton]] = []
-        self._ends = self._out = False
+        self._keys: list[tuple[QShortcut, FittingButton]] = []
+        self._ends = self._out = self._narrow = False
         self._state: tuple[State | None, bool, str] = (None, False, "")
         self._escape = HoldKey(Qt.Key.Key_Escape, self)
         self._escape.held.connect(self.abort.click)  # a disabled button ignores it
@@ -132,12 +132,24 @@ class AttemptActions(QWidget):
         self.set_narrow(False)
 
     def set_narrow(self, narrow: bool) -> None:
-        """Put the buttons below each other and leave Start out, as a rail wants them, or not."""
+        """Leave Start out and give the scan a row, as the foot of a rail wants them, or not."""
+        self._narrow = narrow
         self.start.setVisible(not narrow)
+        self._place()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Put End and Abort beside each other where both can be read."""
+        super().resizeEvent(event)
+        self._place()
+
+    def _place(self) -> None:
+        ends = self.end, self.abort
+        widest = max(button.shortest_px for button in ends)
+        side = self._narrow and 2 * widest + self._grid.horizontalSpacing() <= self.width()
         places = {
-            self.scan: (1, 0, 1, 2 if narrow else 1),
-            self.end: (2, 0, 1, 2) if narrow else (1, 1, 1, 1),
-            self.abort: (3 if narrow else 2, 0, 1, 2),
+            self.scan: (1, 0, 1, 2 if self._narrow else 1),
+            self.end: (2, 0, 1, 1 if side else 2) if self._narrow else (1, 1, 1, 1),
+            self.abort: (2, 1, 1, 1) if side else (3 if self._narrow else 2, 0, 1, 2),
         }
         for button, place in places.items():
             self._grid.addWidget(button, *place)
@@ -171,7 +183,7 @@ def _takes() -> str:
     return tr("The pedal: takes the slices that are set below, with the needle where it is now")
 
 
-def _button(text: str, help_text: str) -> QPushButton:
+def _button(text: str, help_text: str) -> FittingButton:
     button = FittingButton(text)
     button.setToolTip(literal(help_text))
     # A button that keeps the focus would swallow the pad's keys; Space on it would repeat it.
@@ -429,6 +441,8 @@ class AttemptTools(QWidget):
         # Before the attempt the entry is marked first; in it what is pressed stands first.
         before = self._column.count() - 1 if narrow else self._column.indexOf(self.ablation) + 1
         self._column.insertWidget(before, self.entry)
+        if not narrow:  # a rail has them at its foot, where they are seen without scrolling
+            self._column.insertWidget(self._column.indexOf(self.enable), self.buttons)
         self.bevel.setWordWrap(narrow)
 
 
@@ -589,7 +603,7 @@ class ExercisePanel(QWidget):
         self.steps.setVisible(not lent)
         self.readouts.set_elsewhere(frozenset(RailFigures.SHOWN if lent else ()))
         if lent:
-            self.rail.take(self.tools)
+            self.rail.take(self.tools, self.tools.buttons)
         else:
             self._column.insertWidget(self._column.indexOf(self._note) + 1, self.tools)
             self.tools.show()

@@ -151,6 +151,13 @@ class FittingButton(QPushButton):
         shown = metrics.horizontalAdvance(self.text())
         return hint + QSize(metrics.horizontalAdvance(self._whole) - shown, 0)
 
+    @property
+    def shortest_px(self) -> int:
+        """Return the width in which no letter but those of its key goes [px]."""
+        without, metrics = self._whole.rpartition(" (")[0] or self._whole, self.fontMetrics()
+        spared = metrics.horizontalAdvance(self._whole) - metrics.horizontalAdvance(without)
+        return self.sizeHint().width() - spared
+
     def minimumSizeHint(self) -> QSize:
         """Return what a few letters take."""
         hint = self.sizeHint()
