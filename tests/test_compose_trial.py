@@ -362,6 +362,7 @@ def test_the_order_within_seeds_counts_no_tie_and_no_score_as_least():
 
 
 @pytest.mark.long("machine")
+@pytest.mark.timeout(550)  # a hand that watches for complications stays for minutes
 @pytest.mark.parametrize("name", trial_table.shipped())
 def test_in_every_shipped_exercise_novices_fail_and_experts_pass_in_their_order(name):
     """Three skills and a seed; `make trial` asks for all five and a hundred."""

@@ -14,6 +14,7 @@ from typing import Any, Final
 from PySide6.QtCore import QSize, QTimer
 from PySide6.QtWidgets import QApplication, QDialog, QMessageBox, QWidget
 
+from app.views.kit.parts import FRAME
 from app.views.kit.roles import Role
 from tools.looks import rules
 from tools.palette import small_png
@@ -161,7 +162,9 @@ class Gallery(Studio):
             self.window.projector.set(light=theme == "light", large=theme == "large")
             for size in self.wish.sizes[:1] if own else self.wish.sizes:
                 begin = time.monotonic()
-                if not own:
+                if own:  # as on a screen of that size
+                    shown.resize(shown.size().boundedTo(size_of(size) - FRAME))
+                else:
                     self.window.resize(size_of(size))
                 self.settle()
                 self._take(name, shown, size, theme, begin)

@@ -419,25 +419,25 @@ def _tab(window: QWidget, controls: list[QWidget]) -> Iterator[Fault]:
         QTest.keyClick(now, Qt.Key.Key_Tab)
         if QApplication.focusWidget() is now:  # it keeps the key to itself, as a text does
             QTest.keyClick(now, Qt.Key.Key_Tab, Qt.KeyboardModifier.ControlModifier)
-        if known and _rounds(reached, QApplication.focusWidget()):
+        # A date has three parts, each a step: only another control that was there is once round.
+        after = QApplication.focusWidget()
+        if known and after is not now and after in reached:
             break
     for widget in controls:
         holder = widget.focusProxy() or widget
-        if widget in wanted and holder not in reached:
+        # Of one choice of many Qt has Tab come to the one that was reached last.
+        group = widget.group() if isinstance(widget, QAbstractButton) else None
+        alike = {holder, *(group.buttons() if group is not None else ())}
+        if widget in wanted and not alike & reached:
             why = "" if holder.focusPolicy() & Qt.FocusPolicy.TabFocus else " (takes no focus)"
             yield Fault("tab", called(widget), f"the Tab key does not reach it{why}")
-
-
-def _rounds(reached: set[QWidget], now: QWidget | None) -> bool:
-    return now is None or now in reached
 
 
 def _of_group(widget: QWidget) -> bool:
     """Return whether the arrows lead to it from a neighbour: unchecked, one choice of many."""
     if not isinstance(widget, QAbstractButton) or widget.isChecked():
         return False
-    group = widget.group()
-    return isinstance(widget, QRadioButton) or (group is not None and group.exclusive())
+    return isinstance(widget, QRadioButton) or widget.group() is not None
 
 
 # --- an attempt -------------------------------------------------------------------------------

@@ -148,7 +148,7 @@ class BoardTab(QWidget):
         self.stations.setToolTip(tr("Bring the results of several stations together"))
         self._leaving = (self.form, self.semicolons, self.export, self.stations)
         for widget in self._leaving:
-            top.addWidget(widget)
+            top.addWidget(widget, int(widget is self.form))
         column = QVBoxLayout(self)
         column.addLayout(top)
         column.addWidget(self.table, 1)

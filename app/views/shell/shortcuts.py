@@ -187,7 +187,7 @@ def _table(group: Group) -> QGridLayout:
     grid.addWidget(title, 0, 0, 1, 2)
     for number, (key, meaning) in enumerate(rows, start=1):
         pressed, does = PlainLabel(keys_text(key)), PlainLabel(meaning)
-        pressed.setStyleSheet(f"color: {theme.ACCENT};")
+        pressed.setStyleSheet(f"color: {theme.ACCENT}; font-weight: 600;")
         grid.addWidget(pressed, number, 0)
         grid.addWidget(does, number, 1)
     grid.setColumnStretch(1, 1)

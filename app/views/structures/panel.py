@@ -281,6 +281,7 @@ class StructurePanel(QWidget):
                 (tr("To"), self.high),
             )
         ):
+            widget.setAccessibleName(text)
             grid.addWidget(PlainLabel(text), row, 0)
             grid.addWidget(widget, row, 1)
         grid.addWidget(self.limited, 3, 0, 1, 2)
