@@ -1,4 +1,4 @@
-"""The needle of a Haply Inverse3: its cursor is the hub, so direction and depth are measured at once.
+"""The needle of a Haply Inverse3: its cursor is the hub, so direction and depth are known at once.
 
 It stands where cameras do, and gives fixes. There are no pictures.
 """

@@ -40,7 +40,8 @@ def open_bench(port: str, profile: DeviceProfile, progress: Progress) -> Bench:
     """Open the robot at a port for commissioning and wait for its first joint angles.
 
     Raises:
-        DeviceError: if it is an Inverse3, nobody answers, somebody else does, or its record cannot be used.
+        DeviceError: if nobody answers, somebody else does, its record cannot be used, or it is an
+            Inverse3.
         Cancelled: if `progress` was cancelled; nothing stays open then.
     """
     refuse_inverse3(port)

@@ -85,6 +85,14 @@ class _Pose(NamedTuple):
     jacobian: tuple[float, float, float, float]
 
 
+class _Command(NamedTuple):
+    """What the loop wants: its number, and joint torques [N·m] if they count."""
+
+    sequence: int
+    enabled: bool
+    torques: tuple[float, float]
+
+
 class Impersonated:
     """The pantograph that is played, and where its entry stands in the service's frame.
 
@@ -211,7 +219,9 @@ class CursorPort(Port):
         self._pair = socket.socketpair()
         for end in self._pair:
             end.setblocking(False)
-        self._thread = threading.Thread(target=self._run, name="haply", daemon=True)
+        self._thread = threading.Thread(
+            target=self._run, args=(self._pair[1],), name="haply", daemon=True
+        )
         self._thread.start()
 
     def close(self) -> None:
@@ -232,22 +242,19 @@ class CursorPort(Port):
             self._played.force(pose, (0.0, 0.0))
         self._decoded(framing.frame(b"\0")[:-1])
 
-    def _run(self) -> None:
+    def _run(self, end: socket.socket) -> None:
         try:
             while not self._stop.is_set():
-                self._turn(self._commands())
+                self._turn(self._commands(end), end)
         except LinkError as error:
             if not self._stop.is_set():
                 self._tell(str(error))
         finally:
             self.service.close()
-            if self._pair is not None:
-                self._pair[1].close()  # so the loop's wire is dead, and the robot looked for again
+            end.close()  # so the loop's wire is dead, and the robot looked for again
 
-    def _commands(self) -> list[tuple[int, bool, float, float]]:
-        """Wait a while for the loop's commands: sequence, enabled, torques [N·m]."""
-        assert self._pair is not None
-        end = self._pair[1]
+    def _commands(self, end: socket.socket) -> list[_Command]:
+        """Wait a while for the loop's commands."""
         ready, _, _ = select.select([end], [], [], ANSWER_WITHIN)
         data = end.recv(1 << 16) if ready else b""
         if ready and not data:
@@ -258,10 +265,10 @@ class CursorPort(Port):
             payload = self._decoded(piece)
             if payload[:1] == bytes([acus.HELLO]):
                 bare = self._profile.model_copy(update={"name": ""})
-                self._say(acus.pack_info(bare, self.service.device, BOOT, gauge=False))
+                self._say(acus.pack_info(bare, self.service.device, BOOT, gauge=False), end)
             elif payload[:1] == bytes([acus.COMMAND]) and len(payload) == acus.COMMAND_BYTES:
                 _, flags, sequence, left, right = struct.unpack("<BBHff", payload)
-                commands.append((sequence, bool(flags & acus.ENABLE), left, right))
+                commands.append(_Command(sequence, bool(flags & acus.ENABLE), (left, right)))
         return commands
 
     def _decoded(self, piece: bytes) -> bytes:
@@ -271,7 +278,7 @@ class CursorPort(Port):
         length = framing.decode(self._frame, len(piece), self._payload)
         return self._payload[: max(length, 0)].tobytes()
 
-    def _turn(self, commands: list[tuple[int, bool, float, float]]) -> None:
+    def _turn(self, commands: list[_Command], end: socket.socket) -> None:
         """Give the newest force, and answer with the place that the service read after it."""
         cursor = self.service.turn(self._force(commands), ANSWER_WITHIN)
         now = self._clock.now()
@@ -289,36 +296,37 @@ class CursorPort(Port):
         if self._pose is None:
             return
         self._latest.publish(self._pose.hub, now)
-        for sequence, enabled, _, _ in commands:
-            self._answer(sequence, enabled, cursor, self._pose.q, now)
+        for command in commands:
+            self._say(self._state(command, cursor, self._pose.q, now), end)
 
-    def _force(self, commands: list[tuple[int, bool, float, float]]) -> tuple[float, float, float]:
+    def _force(self, commands: list[_Command]) -> tuple[float, float, float]:
+        """Return the force of the newest command [N], in the service's frame."""
         if not commands or self._pose is None:
             return NO_FORCE
-        _, enabled, left, right = commands[-1]
-        if not (enabled and isfinite(left) and isfinite(right)):
+        newest = commands[-1]
+        if not (newest.enabled and all(map(isfinite, newest.torques))):
             return NO_FORCE
-        share = min(1.0, (self._clock.now() - self._inside_since) / COMES_BACK)
-        x, y, z = self._played.force(self._pose, (left, right))
+        share = min(1.0, max(0.0, self._clock.now() - self._inside_since) / COMES_BACK)
+        x, y, z = self._played.force(self._pose, newest.torques)
         return share * x, share * y, share * z
 
-    def _answer(
-        self, sequence: int, enabled: bool, cursor: Cursor, q: tuple[float, float], now: float
-    ) -> None:
+    def _state(
+        self, command: _Command, cursor: Cursor, q: tuple[float, float], now: float
+    ) -> bytes:
+        """Return what a board would say: STATE of docs/protocol.md."""
         flags = acus.GREETED | (acus.HOMED if cursor.calibrated else 0)
-        flags |= acus.ENABLED if enabled else 0
+        flags |= acus.ENABLED if command.enabled else 0
         counts = [
             round((angle - home) / self._step)
             for angle, home in zip(q, self._profile.encoder.home_offsets, strict=True)
         ]
         error = BoardError.NONE if cursor.powered else BoardError.SUPPLY_OFF
         time = int(now * 1e6) & 0xFFFFFFFF
-        self._say(struct.pack("<BBHIiiB", acus.STATE, flags, sequence, time, *counts, error))
+        return struct.pack("<BBHIiiB", acus.STATE, flags, command.sequence, time, *counts, error)
 
-    def _say(self, payload: bytes) -> None:
-        assert self._pair is not None
+    def _say(self, payload: bytes, end: socket.socket) -> None:
         try:
-            self._pair[1].send(framing.frame(payload))
+            end.send(framing.frame(payload))
         except BlockingIOError:  # nobody reads: the loop rests
             pass
         except OSError:

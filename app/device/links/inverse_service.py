@@ -10,18 +10,15 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from http.client import HTTPConnection, HTTPException
 from math import isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 from urllib.parse import urlsplit
 
-from app.core.extras import not_installed
 from app.core.messages import sentence
 from app.device.errors import BoardVersionError, LinkError
-
-if TYPE_CHECKING:
-    from websockets.sync.client import ClientConnection
+from app.device.links.web_client import WebClient
 
 PREFIX = "haply:"
 """What a port's name begins with that is such a service."""
@@ -40,6 +37,7 @@ FARTHEST = 2.0
 NO_FORCE = (0.0, 0.0, 0.0)
 
 _MOST_UNASKED = 64
+_GOODBYE = 0.05
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,15}")
 
 
@@ -83,9 +81,8 @@ class InverseService:
                     name=name,
                 )
             )
-        self._socket: ClientConnection | None = None
+        self._client: WebClient | None = None
         self._key, self._owed = "vector", 0
-        self._held = ExitStack()
         self._greeting: dict[str, Any] = {}
 
     def open(self) -> Cursor:
@@ -95,29 +92,14 @@ class InverseService:
             BoardVersionError: if the service speaks another version.
             LinkError: if there is no service or no device, or it says what cannot be used.
         """
-        try:
-            from websockets.exceptions import WebSocketException
-            from websockets.sync.client import connect
-        except ImportError as error:
-            raise not_installed(LinkError, "websockets", "links") from error
-        host = f"[{self._host}]" if ":" in self._host else self._host
         self.version = self._asked_version()
         major = self.version.partition(".")[0]
         if self.version and major != "3":
             raise self._another_version(self.version)
+        self._client = WebClient(self._host, self._port, LARGEST)
         try:
-            self._socket = self._held.enter_context(
-                connect(
-                    f"ws://{host}:{self._port}",
-                    open_timeout=PATIENCE,
-                    close_timeout=0.1,
-                    ping_interval=None,
-                    compression=None,
-                    max_size=LARGEST,
-                    proxy=None,
-                )
-            )
-        except (OSError, WebSocketException) as error:
+            self._client.open(PATIENCE)
+        except OSError as error:
             raise LinkError(
                 sentence(
                     "no Haply service answers at {host} port {port} ({error}): start it (Haply"
@@ -170,14 +152,15 @@ class InverseService:
 
     def close(self) -> None:
         """Give no force and let go; idempotent."""
-        from websockets.exceptions import WebSocketException
-
-        socket, self._socket = self._socket, None
-        if socket is None:
+        client, self._client = self._client, None
+        if client is None:
             return
-        with suppress(OSError, WebSocketException), self._held:
-            if self.device:
-                socket.send(self._message(NO_FORCE))
+        if self.device:
+            with suppress(OSError):  # an answer left unread would take the last word back
+                client.send(self._message(NO_FORCE))
+                while self._owed >= 0 and client.receive(_GOODBYE) is not None:
+                    self._owed -= 1
+        client.close()
 
     def _asked_version(self) -> str:
         """Ask by HTTP, on the same port; a service that does not say is known by its inventory."""
@@ -193,13 +176,11 @@ class InverseService:
             asked.close()
 
     def _command(self, force: tuple[float, float, float]) -> None:
-        from websockets.exceptions import WebSocketException
-
-        if self._socket is None:
-            raise self._gone("closed")
+        if self._client is None:
+            raise self._gone(sentence("it is closed"))
         try:
-            self._socket.send(self._message(force))
-        except (OSError, WebSocketException) as error:
+            self._client.send(self._message(force))
+        except OSError as error:
             raise self._gone(error) from error
         self._owed += 1
 
@@ -210,21 +191,17 @@ class InverseService:
         devices = [{"device_id": self.device, "commands": commands}]
         return json.dumps(greeting | {"inverse3": devices})
 
-    def _heard(self, wait: float) -> str | bytes | None:
-        from websockets.exceptions import WebSocketException
-
-        if self._socket is None:
-            raise self._gone("closed")
+    def _heard(self, wait: float) -> bytes | None:
+        if self._client is None:
+            raise self._gone(sentence("it is closed"))
         try:
-            text: str | bytes = self._socket.recv(timeout=wait)
-        except TimeoutError:
-            return None
-        except (OSError, WebSocketException) as error:
+            text = self._client.receive(wait)
+        except OSError as error:
             raise self._gone(error) from error
-        self._owed -= 1
+        self._owed -= text is not None
         return text
 
-    def _document(self, text: str | bytes) -> Mapping[str, Any]:
+    def _document(self, text: bytes) -> Mapping[str, Any]:
         try:
             document = json.loads(text)
         except (ValueError, RecursionError) as error:
@@ -242,14 +219,17 @@ class InverseService:
             raise self._another_version(sentence("unknown"))
         if not devices:
             raise LinkError(
-                sentence("{name}: no Inverse3 is plugged in: look at cable and power", name=self.name)
+                sentence(
+                    "{name}: no Inverse3 is plugged in: look at cable and power", name=self.name
+                )
             )
         for one in devices:
             if isinstance(one, dict) and self.device in ("", one.get("device_id")):
                 return one
         raise LinkError(
             sentence(
-                "{name}: the Inverse3 {device} is gone; another is there", name=self.name,
+                "{name}: the Inverse3 {device} is gone; another is there",
+                name=self.name,
                 device=self.device,
             )
         )
@@ -311,9 +291,11 @@ class InverseService:
             )
         )
 
-    def _unusable(self, why: str) -> LinkError:
+    def _unusable(self, reason: str) -> LinkError:
         return LinkError(
-            sentence("{name}: the Haply service cannot be used: {why}", name=self.name, why=why)
+            sentence(
+                "{name}: the Haply service cannot be used: {reason}", name=self.name, reason=reason
+            )
         )
 
     def _gone(self, error: object) -> LinkError:
