@@ -150,7 +150,7 @@ def conform_(
 
     from app.core.files import write_atomically
     from app.device.conformance.suite import conform
-    from app.device.links.inverse3 import refuse_inverse3
+    from app.device.links.inverse_service import refuse_inverse3
     from app.mechanisms.profile import load_profile
 
     refuse_inverse3(port)
@@ -209,7 +209,7 @@ def calibrate(
     from app.commands.answers import Answers, numbers
     from app.device.commissioning.bench import Bench
     from app.device.commissioning.results import RoutineName
-    from app.device.links.inverse3 import refuse_inverse3
+    from app.device.links.inverse_service import refuse_inverse3
     from app.device.links.serial_link import SerialLink
     from app.mechanisms.profile import load_profile
 

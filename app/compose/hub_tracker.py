@@ -55,7 +55,8 @@ class HubTracker:
         self.events = link.events
         self._link, self._profile, self._clock, self._on_fix = link, profile, clock, on_fix
         self._meter, self._seen = TrackerMeter(), -np.inf
-        self._stop, self._thread = threading.Event(), None
+        self._stop = threading.Event()
+        self._thread: threading.Thread | None = None
 
     def open(self) -> None:
         """Start; idempotent."""

@@ -14,7 +14,8 @@ from app.core.progress import Progress
 from app.device.commissioning.records import load_record
 from app.device.control.corrections import Corrections
 from app.device.errors import LinkError
-from app.device.links.inverse3 import Inverse3Link, refuse_inverse3, robot_link
+from app.device.links.inverse3 import Inverse3Link, robot_link
+from app.device.links.inverse_service import refuse_inverse3
 from app.device.links.link import DeviceLink
 from app.device.readiness import ForceClearance, Readiness
 from app.mechanisms.profile import DeviceProfile

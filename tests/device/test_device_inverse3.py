@@ -19,10 +19,14 @@ from app.device.links.inverse3 import (
     ANSWER_WITHIN,
     Impersonated,
     Inverse3Link,
-    refuse_inverse3,
     robot_link,
 )
-from app.device.links.inverse_service import NO_FORCE, Cursor, InverseService
+from app.device.links.inverse_service import (
+    NO_FORCE,
+    Cursor,
+    InverseService,
+    refuse_inverse3,
+)
 from app.device.links.link import LinkStatus
 from app.device.links.serial_link import SerialLink
 from app.mechanisms.profile import load_profile
@@ -158,8 +162,9 @@ def test_an_inventory_of_no_use_is_refused(service, inventory, family, message):
         InverseService(service.name).open()
 
 
-def test_a_mount_that_scales_is_refused():
-    service = ScriptedService(hub(0.0), scale=2.0)
+@pytest.mark.parametrize("scale", [2.0, -1.0, float("nan"), "one"])
+def test_a_mount_that_scales_is_refused(scale):
+    service = ScriptedService(hub(0.0), scale=scale)
     with pytest.raises(LinkError, match="its mount is scaled"):
         InverseService(service.name).open()
     service.close()

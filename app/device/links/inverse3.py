@@ -76,7 +76,7 @@ class Hub(NamedTuple):
     inside: bool
 
 
-class _Pose(NamedTuple):
+class _Played(NamedTuple):
     """Hub, the pantograph's joints there [rad], its lever [m] and dP3/dq [m/rad]."""
 
     hub: Hub
@@ -109,7 +109,7 @@ class Impersonated:
         self._links = part.proximal, part.distal, part.base
         self._limit = radians(profile.tilt_limit_deg)
 
-    def pose(self, cursor: Cursor) -> _Pose | None:
+    def pose(self, cursor: Cursor) -> _Played | None:
         """Return the pose with the hub at the cursor; None where nobody could say one."""
         x, y, z = (entry - there for entry, there in zip(self.fulcrum, cursor[:3], strict=True))
         l_out = sqrt(x * x + y * y + z * z)
@@ -134,9 +134,9 @@ class Impersonated:
         if status != OK:
             return None
         jxl, jxr, jyl, jyr = rates
-        return _Pose(Hub(axis, l_out, inside), (left, right), l_in, (jxl, jxr, jyl, jyr))
+        return _Played(Hub(axis, l_out, inside), (left, right), l_in, (jxl, jxr, jyl, jyr))
 
-    def force(self, pose: _Pose, torques: tuple[float, float]) -> tuple[float, float, float]:
+    def force(self, pose: _Played, torques: tuple[float, float]) -> tuple[float, float, float]:
         """Return the force at the hub [N] that joint torques [N·m] are, at most what is allowed."""
         if not pose.hub.inside:
             return NO_FORCE
@@ -181,14 +181,14 @@ class CursorPort(Port):
                 )
             )
         self.service = InverseService(name)
-        self._played = Impersonated(profile, (0.0, 0.0, 0.0))
+        self._played: Impersonated
         self._profile, self._latest, self._tell, self._clock = profile, hub, tell, clock
         self._step = 2.0 * np.pi / profile.encoder.counts_per_turn
         self._pair: tuple[socket.socket, socket.socket] | None = None
         self._thread: threading.Thread | None = None
         self._stop = threading.Event()
         self._rest, self._silent = b"", False
-        self._pose: _Pose | None = None
+        self._pose: _Played | None = None
         self._inside_since = float(np.inf)
         self._frame, self._payload = np.zeros(256, np.uint8), np.zeros(256, np.uint8)
 
@@ -240,7 +240,6 @@ class CursorPort(Port):
         pose = self._played.pose(Cursor(x, y, z + 0.1))
         if pose is not None:
             self._played.force(pose, (0.0, 0.0))
-        self._decoded(framing.frame(b"\0")[:-1])
 
     def _run(self, end: socket.socket) -> None:
         try:
@@ -288,14 +287,12 @@ class CursorPort(Port):
             self._silent, self._pose, self._inside_since = True, None, np.inf
             return
         pose = self._played.pose(cursor)
-        if pose is None or not pose.hub.inside:
-            self._inside_since = np.inf
-        elif not np.isfinite(self._inside_since):
-            self._inside_since = now
-        self._pose = pose or (self._pose and self._pose._replace(hub=_outside(self._pose.hub)))
+        inside = pose is not None and pose.hub.inside
+        self._inside_since = min(self._inside_since, now) if inside else np.inf
+        self._pose = pose or self._pose  # where none can be said the last one stands, forceless
         if self._pose is None:
             return
-        self._latest.publish(self._pose.hub, now)
+        self._latest.publish(self._pose.hub._replace(inside=inside), now)
         for command in commands:
             self._say(self._state(command, cursor, self._pose.q, now), end)
 
@@ -333,10 +330,6 @@ class CursorPort(Port):
             self._stop.set()
 
 
-def _outside(hub: Hub) -> Hub:
-    return hub._replace(inside=False)
-
-
 class Inverse3Link(SerialLink):
     """An Inverse3 at a service; see `SerialLink`.
 
@@ -344,14 +337,8 @@ class Inverse3Link(SerialLink):
         hub: the needle by its hub, with the time of the reading.
     """
 
-    def __init__(
-        self,
-        port: str,
-        profile: DeviceProfile,
-        on_connect: Callable[[BoardInfo], None] | None = None,
-        clock: Clock | None = None,
-    ) -> None:
-        super().__init__(port, profile, on_connect, clock)
+    def __init__(self, port: str, profile: DeviceProfile) -> None:
+        super().__init__(port, profile)
         self.hub: Latest[Hub] = Latest()
         self._speech = AcusSpeech(profile)
 
@@ -375,25 +362,7 @@ class Inverse3Link(SerialLink):
         return replace(info, firmware=version, protocol="haply inverse3")
 
 
-def robot_link(
-    port: str, profile: DeviceProfile, on_connect: Callable[[BoardInfo], None] | None = None
-) -> SerialLink:
+def robot_link(port: str, profile: DeviceProfile) -> SerialLink:
     """Return the link to the robot at a port: `haply:…` is an Inverse3, all else a serial port."""
     kind = Inverse3Link if port.startswith(PREFIX) else SerialLink
-    return kind(port, profile, on_connect)
-
-
-def refuse_inverse3(port: str) -> None:
-    """Refuse to commission, or to test as firmware, what is no board.
-
-    Raises:
-        LinkError: if the port is a Haply service's.
-    """
-    if port.startswith(PREFIX):
-        raise LinkError(
-            sentence(
-                "{port}: an Inverse3 finds its zero by itself and has no board of ours: there is"
-                " nothing to commission; try `acus device test {port}`",
-                port=port,
-            )
-        )
+    return kind(port, profile)
