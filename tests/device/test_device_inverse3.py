@@ -478,7 +478,7 @@ def test_a_hub_led_out_of_the_cone_feels_nothing_and_the_force_comes_back_by_and
         running.until(pushes(service), "the guidance's force")
         service.place = hub(100.0, 40.0)
         running.until(lambda row: size(service.force()) == 0.0, "no force")
-        assert not running.link.hub.read().value.inside
+        running.until(lambda row: not running.link.hub.read().value.inside, "the hub outside")
         service.place = hub(TILT, 40.0)
         running.until(pushes(service), "the force again")
 

@@ -1,6 +1,6 @@
 """A Haply Inverse3 as a robot: its cursor is the needle's hub.
 
-The loop keeps its own wire. A thread stands where a board would, at the other end of a pair of
+The loop keeps its own wire. A process stands where a board would, at the other end of a pair of
 sockets: it says the joint angles that a pantograph would have with its hub there, and turns the
 torques that come for them into the force at the hub that they are, by virtual work. So every
 exercise of a pantograph runs, and what the loop does about a wire that falls silent holds as it is.
@@ -11,20 +11,27 @@ is never older than the loop takes it for.
 
 from __future__ import annotations
 
+import json
+import os
 import select
+import signal
 import socket
 import struct
+import subprocess
+import sys
 import threading
+import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from math import cos, hypot, isfinite, radians, sin, sqrt
-from typing import NamedTuple
+from typing import IO, NamedTuple, cast
 
 import numpy as np
 
 from app.core import paths
-from app.core.clock import Clock
-from app.core.configuration import Strict, load
+from app.core.child_process import environment, module_command
+from app.core.configuration import Strict, load, parse
 from app.core.latest import Latest
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
@@ -45,6 +52,12 @@ from app.mechanisms.status import OK
 
 ANSWER_WITHIN = 0.02
 """Without a state for so long the service does not answer, and without a command the loop [s]."""
+
+BEGINS_WITHIN = 60.0
+"""Time for the process to load what it needs [s]."""
+
+TELLS_EVERY = 0.01
+"""Time between two places of the hub that the window is told [s]."""
 
 COMES_BACK = 0.25
 """Time in which the force grows to its full size after the hub was where no needle can be [s]."""
@@ -151,120 +164,60 @@ class Impersonated:
         return share * x, share * y, share * z
 
 
-class CursorPort(Port):
-    """The loop's end of a pair of sockets, and the thread at the other.
+class Bridge:
+    """The other end of the loop's wire, in a process of its own: nobody takes its interpreter away.
 
     Args:
-        name: of the service.
+        service: of the device, not open yet.
         profile: of the pantograph that is played.
-        hub: takes each place of the hub.
-        tell: takes what people must know.
-        clock: monotonic, the loop's.
+        fulcrum: P_I in the service's frame [m].
+        wait: longest time [s] for an answer, and for a command.
+        tell: takes a kind, and what there is to say of it.
     """
 
     def __init__(
         self,
-        name: str,
-        profile: DeviceProfile,
-        hub: Latest[Hub],
-        tell: Callable[[str], None],
-        clock: Clock,
+        service: InverseService,
+        profile: PantographProfile,
+        fulcrum: tuple[float, float, float],
+        wait: float,
+        tell: Callable[..., None],
     ) -> None:
-        super().__init__(name, 0)
-        if not isinstance(profile, PantographProfile):
-            raise LinkError(
-                sentence(
-                    "{name}: an Inverse3 stands in for a pantograph; {profile} is a {kind}",
-                    name=name,
-                    profile=profile.name,
-                    kind=profile.kind,
-                )
-            )
-        self.service = InverseService(name)
-        self._played: Impersonated
-        self._profile, self._latest, self._tell, self._clock = profile, hub, tell, clock
+        self._service, self._profile, self._wait, self._tell = service, profile, wait, tell
+        self._played = Impersonated(profile, fulcrum)
         self._step = 2.0 * np.pi / profile.encoder.counts_per_turn
-        self._pair: tuple[socket.socket, socket.socket] | None = None
-        self._thread: threading.Thread | None = None
-        self._stop = threading.Event()
-        self._rest, self._silent = b"", False
+        self._rest, self._silent, self._ended = b"", False, False
         self._pose: _Played | None = None
-        self._inside_since = float(np.inf)
+        self._inside_since, self._told = float(np.inf), 0.0
         self._frame, self._payload = np.zeros(256, np.uint8), np.zeros(256, np.uint8)
 
-    @property
-    def fd(self) -> int:
-        """Descriptor of the loop's end."""
-        if self._pair is None:
-            raise LinkError(sentence("{name} is closed; call open() first", name=self.path))
-        return self._pair[0].fileno()
-
-    @property
-    def is_pseudo_terminal(self) -> bool:
-        """No terminal: whether hardware is behind the service nobody can tell."""
-        return False
-
-    def open(self) -> None:
-        """Connect to the service and start the thread.
-
-        Raises:
-            LinkError: if there is no service or no device.
-        """
-        place = paths.settings() / "haply.yaml"
-        settings = load(place, HaplySettings) if place.exists() else HaplySettings()
-        x, y, z = (MILLIMETRE * one for one in settings.fulcrum_mm)
-        self._played = Impersonated(self._profile, (x, y, z))
-        self._rehearse()
-        self.service.open()
-        self._pair = socket.socketpair()
-        for end in self._pair:
-            end.setblocking(False)
-        self._thread = threading.Thread(
-            target=self._run, args=(self._pair[1],), name="haply", daemon=True
-        )
-        self._thread.start()
-
-    def close(self) -> None:
-        """End at no force and let go; idempotent."""
-        self._stop.set()
-        thread, self._thread = self._thread, None
-        if thread is not None and thread is not threading.current_thread():
-            thread.join(timeout=2.0)
-        pair, self._pair = self._pair, None
-        for end in pair or ():
-            end.close()
-
-    def _rehearse(self) -> None:
-        """Load compiled code before anybody waits for an answer."""
+    def run(self, end: socket.socket) -> None:
+        """Connect, and answer until the loop's side is closed or the service cannot be used."""
         x, y, z = self._played.fulcrum
-        pose = self._played.pose(Cursor(x, y, z + 0.1))
-        if pose is not None:
-            self._played.force(pose, (0.0, 0.0))
-
-    def _run(self, end: socket.socket) -> None:
+        if (pose := self._played.pose(Cursor(x, y, z + 0.1))) is not None:
+            self._played.force(pose, (0.0, 0.0))  # compiled code is loaded before anybody waits
         try:
-            while not self._stop.is_set():
+            self._service.open()
+            self._tell("begun")
+            while not self._ended:
                 self._turn(self._commands(end), end)
         except LinkError as error:
-            if not self._stop.is_set():
-                self._tell(str(error))
+            self._tell("said", str(error))
         finally:
-            self.service.close()
-            end.close()  # so the loop's wire is dead, and the robot looked for again
+            self._service.close()
 
     def _commands(self, end: socket.socket) -> list[_Command]:
         """Wait a while for the loop's commands."""
-        ready, _, _ = select.select([end], [], [], ANSWER_WITHIN)
+        ready, _, _ = select.select([end], [], [], self._wait)
         data = end.recv(1 << 16) if ready else b""
-        if ready and not data:
-            self._stop.set()
+        self._ended = bool(ready and not data)
         *whole, self._rest = (self._rest[-framing.FRAME_BYTES :] + data).split(b"\0")
         commands = []
         for piece in whole:
             payload = self._decoded(piece)
             if payload[:1] == bytes([acus.HELLO]):
                 bare = self._profile.model_copy(update={"name": ""})
-                self._say(acus.pack_info(bare, self.service.device, BOOT, gauge=False), end)
+                self._say(acus.pack_info(bare, self._service.device, BOOT, gauge=False), end)
             elif payload[:1] == bytes([acus.COMMAND]) and len(payload) == acus.COMMAND_BYTES:
                 _, flags, sequence, left, right = struct.unpack("<BBHff", payload)
                 commands.append(_Command(sequence, bool(flags & acus.ENABLE), (left, right)))
@@ -279,11 +232,12 @@ class CursorPort(Port):
 
     def _turn(self, commands: list[_Command], end: socket.socket) -> None:
         """Give the newest force, and answer with the place that the service read after it."""
-        cursor = self.service.turn(self._force(commands), ANSWER_WITHIN)
-        now = self._clock.now()
+        cursor = self._service.turn(self._force(commands), self._wait)
+        now = time.monotonic()
         if cursor is None:
             if not self._silent:
-                self._tell(sentence("{name}: the Haply service does not answer", name=self.path))
+                name = self._service.name
+                self._tell("said", sentence("{name}: the Haply service does not answer", name=name))
             self._silent, self._pose, self._inside_since = True, None, np.inf
             return
         pose = self._played.pose(cursor)
@@ -292,7 +246,9 @@ class CursorPort(Port):
         self._pose = pose or self._pose  # where none can be said the last one stands, forceless
         if self._pose is None:
             return
-        self._latest.publish(self._pose.hub._replace(inside=inside), now)
+        if now - self._told >= TELLS_EVERY:
+            self._told = now
+            self._tell("hub", now, self._pose.hub._replace(inside=inside))
         for command in commands:
             self._say(self._state(command, cursor, self._pose.q, now), end)
 
@@ -303,7 +259,7 @@ class CursorPort(Port):
         newest = commands[-1]
         if not (newest.enabled and all(map(isfinite, newest.torques))):
             return NO_FORCE
-        share = min(1.0, max(0.0, self._clock.now() - self._inside_since) / COMES_BACK)
+        share = min(1.0, max(0.0, time.monotonic() - self._inside_since) / COMES_BACK)
         x, y, z = self._played.force(self._pose, newest.torques)
         return share * x, share * y, share * z
 
@@ -318,8 +274,8 @@ class CursorPort(Port):
             for angle, home in zip(q, self._profile.encoder.home_offsets, strict=True)
         ]
         error = BoardError.NONE if cursor.powered else BoardError.SUPPLY_OFF
-        time = int(now * 1e6) & 0xFFFFFFFF
-        return struct.pack("<BBHIiiB", acus.STATE, flags, command.sequence, time, *counts, error)
+        micros = int(now * 1e6) & 0xFFFFFFFF
+        return struct.pack("<BBHIiiB", acus.STATE, flags, command.sequence, micros, *counts, error)
 
     def _say(self, payload: bytes, end: socket.socket) -> None:
         try:
@@ -327,7 +283,106 @@ class CursorPort(Port):
         except BlockingIOError:  # nobody reads: the loop rests
             pass
         except OSError:
-            self._stop.set()
+            self._ended = True
+
+
+class CursorPort(Port):
+    """The loop's end of a pair of sockets, and the process at the other.
+
+    Args:
+        name: of the service.
+        profile: of the pantograph that is played.
+        hub: takes each place of the hub.
+        tell: takes what people must know.
+    """
+
+    def __init__(
+        self, name: str, profile: DeviceProfile, hub: Latest[Hub], tell: Callable[[str], None]
+    ) -> None:
+        super().__init__(name, 0)
+        if not isinstance(profile, PantographProfile):
+            raise LinkError(
+                sentence(
+                    "{name}: an Inverse3 stands in for a pantograph; {profile} is a {kind}",
+                    name=name,
+                    profile=profile.name,
+                    kind=profile.kind,
+                )
+            )
+        self.service = InverseService(name)
+        self._profile, self._latest, self._tell = profile, hub, tell
+        self._end: socket.socket | None = None
+        self._process: subprocess.Popen[bytes] | None = None
+
+    @property
+    def fd(self) -> int:
+        """Descriptor of the loop's end."""
+        if self._end is None:
+            raise LinkError(sentence("{name} is closed; call open() first", name=self.path))
+        return self._end.fileno()
+
+    @property
+    def is_pseudo_terminal(self) -> bool:
+        """No terminal: whether hardware is behind the service nobody can tell."""
+        return False
+
+    def open(self) -> None:
+        """See who is there, and start the process.
+
+        Raises:
+            LinkError: if there is no service or no device.
+        """
+        place = paths.settings() / "haply.yaml"
+        settings = load(place, HaplySettings) if place.exists() else HaplySettings()
+        self.service.open()
+        self.service.close()
+        given = {
+            "name": self.path,
+            "profile": self._profile.model_dump(mode="json"),
+            "fulcrum": [MILLIMETRE * one for one in settings.fulcrum_mm],
+            "wait": ANSWER_WITHIN,
+        }
+        self._end, other = socket.socketpair()
+        self._end.setblocking(False)
+        with other:
+            self._process = subprocess.Popen(
+                [*module_command(__name__), str(other.fileno()), json.dumps(given)],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                pass_fds=(other.fileno(),),
+                env=environment(),
+            )
+        begun = threading.Event()
+        told = cast(IO[bytes], self._process.stdout)
+        threading.Thread(target=self._listen, args=(told, begun), name="haply", daemon=True).start()
+        if not begun.wait(BEGINS_WITHIN):
+            self.close()
+            raise LinkError(sentence("{name}: its process does not begin", name=self.path))
+
+    def close(self) -> None:
+        """Let go: the process ends at no force; idempotent."""
+        end, self._end = self._end, None
+        process, self._process = self._process, None
+        if end is not None:
+            end.close()
+        if process is not None:
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(timeout=2.0)
+            process.kill()
+            process.wait()
+
+    def _listen(self, told: IO[bytes], begun: threading.Event) -> None:
+        """Take what the process says, a line each, until it ends."""
+        with told:
+            for line in told:
+                kind, *said = json.loads(line)
+                begun.set()
+                if kind == "said":
+                    self._tell(said[0])
+                elif kind == "hub":
+                    moment, (axis, l_out, inside) = said
+                    self._latest.publish(Hub(tuple(axis), l_out, inside), moment)
+        begun.set()
 
 
 class Inverse3Link(SerialLink):
@@ -354,7 +409,7 @@ class Inverse3Link(SerialLink):
         )
 
     def _make_port(self) -> Port:
-        return CursorPort(self.port, self.profile, self.hub, self._say, self._clock)
+        return CursorPort(self.port, self.profile, self.hub, self._say)
 
     def _greeted(self, port: Port) -> BoardInfo:
         info = super()._greeted(port)
@@ -366,3 +421,24 @@ def robot_link(port: str, profile: DeviceProfile) -> SerialLink:
     """Return the link to the robot at a port: `haply:…` is an Inverse3, all else a serial port."""
     kind = Inverse3Link if port.startswith(PREFIX) else SerialLink
     return kind(port, profile)
+
+
+def main() -> None:
+    """Be the process: a descriptor and what is given are its arguments."""
+    descriptor, given = int(sys.argv[1]), json.loads(sys.argv[2])
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends when the loop's side is closed
+    os.set_blocking(sys.stdout.fileno(), False)
+
+    def tell(*said: object) -> None:
+        with suppress(OSError):  # nobody reads: what is newer comes later
+            os.write(sys.stdout.fileno(), json.dumps(said).encode() + b"\n")
+
+    profile = parse(given["profile"], PantographProfile, "the profile for a Haply service")
+    with socket.socket(fileno=descriptor) as end:
+        end.setblocking(False)
+        service = InverseService(given["name"])
+        Bridge(service, profile, tuple(given["fulcrum"]), given["wait"], tell).run(end)
+
+
+if __name__ == "__main__":
+    main()

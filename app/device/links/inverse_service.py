@@ -133,6 +133,8 @@ class WebClient:
 
     def _read(self, wait: float) -> bool:
         """Wait for bytes and take them; whether there were any."""
+        from websockets.frames import Frame
+
         if self._socket is None:
             raise ConnectionError(sentence("it is closed"))
         ready, _, _ = select.select([self._socket], [], [], max(wait, 0.0))
@@ -144,7 +146,7 @@ class WebClient:
         protocol = self._protocol
         protocol.receive_data(data)
         for event in protocol.events_received():
-            if getattr(event, "opcode", _CONTROL) < _CONTROL:  # else a greeting, ping or good-bye
+            if isinstance(event, Frame) and event.opcode < _CONTROL:
                 self._begun += bytes(event.data)
                 if event.fin:
                     self._messages.append(self._begun)
