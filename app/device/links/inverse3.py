@@ -21,11 +21,11 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from math import cos, hypot, isfinite, radians, sin, sqrt
-from typing import IO, NamedTuple, cast
+from typing import IO, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -52,6 +52,9 @@ from app.mechanisms.status import OK
 
 ANSWER_WITHIN = 0.02
 """Without a state for so long the service does not answer, and without a command the loop [s]."""
+
+LOOKS_EVERY = 0.5
+"""Time between two looks for a device that is not there [s]."""
 
 BEGINS_WITHIN = 60.0
 """Time for the process to load what it needs [s]."""
@@ -192,25 +195,33 @@ class Bridge:
         self._frame, self._payload = np.zeros(256, np.uint8), np.zeros(256, np.uint8)
 
     def run(self, end: socket.socket) -> None:
-        """Connect, and answer until the loop's side is closed or the service cannot be used."""
+        """Look for the device, and answer for it, until the loop's side is closed."""
         x, y, z = self._played.fulcrum
         if (pose := self._played.pose(Cursor(x, y, z + 0.1))) is not None:
             self._played.force(pose, (0.0, 0.0))  # compiled code is loaded before anybody waits
-        try:
-            self._service.open()
-            self._tell("begun")
-            while not self._ended:
-                self._turn(self._commands(end), end)
-        except LinkError as error:
-            self._tell("said", str(error))
-        finally:
-            self._service.close()
+        while not self._ended:
+            try:
+                self._service.open()
+                self._tell("state", "")
+                while not self._ended:
+                    self._turn(self._commands(end), end)
+            except LinkError as error:
+                self._tell("state", str(error))
+            finally:
+                self._service.close()
+            self._silent, self._pose, self._inside_since = False, None, np.inf
+            again = time.monotonic() + LOOKS_EVERY
+            while not self._ended and time.monotonic() < again:
+                self._commands(end)
 
     def _commands(self, end: socket.socket) -> list[_Command]:
         """Wait a while for the loop's commands."""
         ready, _, _ = select.select([end], [], [], self._wait)
-        data = end.recv(1 << 16) if ready else b""
-        self._ended = bool(ready and not data)
+        data = b""
+        if ready:
+            with suppress(ConnectionError):  # the loop's side was closed with something unread
+                data = end.recv(1 << 16)
+            self._ended = not data
         *whole, self._rest = (self._rest[-framing.FRAME_BYTES :] + data).split(b"\0")
         commands = []
         for piece in whole:
@@ -286,64 +297,25 @@ class Bridge:
             self._ended = True
 
 
-class CursorPort(Port):
-    """The loop's end of a pair of sockets, and the process at the other.
+class BridgeProcess:
+    """The process of a bridge, and the loop's end of the wire to it; it outlives connections.
 
     Args:
-        name: of the service.
-        profile: of the pantograph that is played.
+        given: what the process is told at its beginning.
         hub: takes each place of the hub.
         tell: takes what people must know.
+
+    Attributes:
+        end: the loop's.
+        trouble: why there is no device now; empty if there is.
     """
 
     def __init__(
-        self, name: str, profile: DeviceProfile, hub: Latest[Hub], tell: Callable[[str], None]
+        self, given: Mapping[str, Any], hub: Latest[Hub], tell: Callable[[str], None]
     ) -> None:
-        super().__init__(name, 0)
-        if not isinstance(profile, PantographProfile):
-            raise LinkError(
-                sentence(
-                    "{name}: an Inverse3 stands in for a pantograph; {profile} is a {kind}",
-                    name=name,
-                    profile=profile.name,
-                    kind=profile.kind,
-                )
-            )
-        self.service = InverseService(name)
-        self._profile, self._latest, self._tell = profile, hub, tell
-        self._end: socket.socket | None = None
-        self._process: subprocess.Popen[bytes] | None = None
-
-    @property
-    def fd(self) -> int:
-        """Descriptor of the loop's end."""
-        if self._end is None:
-            raise LinkError(sentence("{name} is closed; call open() first", name=self.path))
-        return self._end.fileno()
-
-    @property
-    def is_pseudo_terminal(self) -> bool:
-        """No terminal: whether hardware is behind the service nobody can tell."""
-        return False
-
-    def open(self) -> None:
-        """See who is there, and start the process.
-
-        Raises:
-            LinkError: if there is no service or no device.
-        """
-        place = paths.settings() / "haply.yaml"
-        settings = load(place, HaplySettings) if place.exists() else HaplySettings()
-        self.service.open()
-        self.service.close()
-        given = {
-            "name": self.path,
-            "profile": self._profile.model_dump(mode="json"),
-            "fulcrum": [MILLIMETRE * one for one in settings.fulcrum_mm],
-            "wait": ANSWER_WITHIN,
-        }
-        self._end, other = socket.socketpair()
-        self._end.setblocking(False)
+        self.end, other = socket.socketpair()
+        self.end.setblocking(False)
+        self.trouble, self._latest, self._tell = "", hub, tell
         with other:
             self._process = subprocess.Popen(
                 [*module_command(__name__), str(other.fileno()), json.dumps(given)],
@@ -352,37 +324,69 @@ class CursorPort(Port):
                 pass_fds=(other.fileno(),),
                 env=environment(),
             )
-        begun = threading.Event()
-        told = cast(IO[bytes], self._process.stdout)
-        threading.Thread(target=self._listen, args=(told, begun), name="haply", daemon=True).start()
-        if not begun.wait(BEGINS_WITHIN):
-            self.close()
-            raise LinkError(sentence("{name}: its process does not begin", name=self.path))
+        self._begun = threading.Event()
+        threading.Thread(target=self._listen, name="haply", daemon=True).start()
+
+    @property
+    def begun(self) -> bool:
+        """Wait for the first that it says; whether it lives."""
+        return self._begun.wait(BEGINS_WITHIN) and self._process.poll() is None
 
     def close(self) -> None:
-        """Let go: the process ends at no force; idempotent."""
-        end, self._end = self._end, None
-        process, self._process = self._process, None
-        if end is not None:
-            end.close()
-        if process is not None:
-            with suppress(subprocess.TimeoutExpired):
-                process.wait(timeout=2.0)
-            process.kill()
-            process.wait()
+        """Close the loop's end: the process gives no force and ends."""
+        self.end.close()
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(timeout=2.0)
+        self._process.kill()
+        self._process.wait()
 
-    def _listen(self, told: IO[bytes], begun: threading.Event) -> None:
-        """Take what the process says, a line each, until it ends."""
-        with told:
+    def _listen(self) -> None:
+        with cast(IO[bytes], self._process.stdout) as told:
             for line in told:
                 kind, *said = json.loads(line)
-                begun.set()
-                if kind == "said":
-                    self._tell(said[0])
-                elif kind == "hub":
+                if kind == "hub":
                     moment, (axis, l_out, inside) = said
                     self._latest.publish(Hub(tuple(axis), l_out, inside), moment)
-        begun.set()
+                elif kind == "state":
+                    self.trouble = said[0]
+                    self._begun.set()
+                else:
+                    self._tell(said[0])
+        self._begun.set()
+
+
+class CursorPort(Port):
+    """The end of the loop's wire as a port; the process stays when it is closed.
+
+    Args:
+        name: of the service.
+        bridge: at the other end.
+    """
+
+    def __init__(self, name: str, bridge: BridgeProcess) -> None:
+        super().__init__(name, 0)
+        self._bridge = bridge
+
+    @property
+    def fd(self) -> int:
+        """Descriptor of the loop's end."""
+        return self._bridge.end.fileno()
+
+    @property
+    def is_pseudo_terminal(self) -> bool:
+        """No terminal: whether hardware is behind the service nobody can tell."""
+        return False
+
+    def open(self) -> None:
+        """See whether the device is there.
+
+        Raises:
+            LinkError: if it is not; says why.
+        """
+        if not self._bridge.begun:
+            raise LinkError(sentence("{name}: its process has ended", name=self.path))
+        if self._bridge.trouble:
+            raise LinkError(self._bridge.trouble)
 
 
 class Inverse3Link(SerialLink):
@@ -396,6 +400,35 @@ class Inverse3Link(SerialLink):
         super().__init__(port, profile)
         self.hub: Latest[Hub] = Latest()
         self._speech = AcusSpeech(profile)
+        self._service = InverseService(port)
+        self._bridge: BridgeProcess | None = None
+
+    def open(self) -> None:
+        """See who is there, and start the process; see `SerialLink.open`."""
+        if not isinstance(self.profile, PantographProfile):
+            raise LinkError(
+                sentence(
+                    "{name}: an Inverse3 stands in for a pantograph; {profile} is a {kind}",
+                    name=self.port,
+                    profile=self.profile.name,
+                    kind=self.profile.kind,
+                )
+            )
+        try:
+            super().open()
+        except BaseException:
+            self._leave()
+            raise
+
+    def close(self) -> None:
+        """Let go; see `SerialLink.close`."""
+        super().close()
+        self._leave()
+
+    def _leave(self) -> None:
+        bridge, self._bridge = self._bridge, None
+        if bridge is not None:
+            bridge.close()
 
     def clearance(self) -> ForceClearance:
         """Return that the device knows its zero, and that nobody has weighed its forces."""
@@ -409,12 +442,23 @@ class Inverse3Link(SerialLink):
         )
 
     def _make_port(self) -> Port:
-        return CursorPort(self.port, self.profile, self.hub, self._say)
+        if self._bridge is None:
+            place = paths.settings() / "haply.yaml"
+            settings = load(place, HaplySettings) if place.exists() else HaplySettings()
+            self._service.open()
+            self._service.close()
+            given = {
+                "name": self.port,
+                "profile": self.profile.model_dump(mode="json"),
+                "fulcrum": [MILLIMETRE * one for one in settings.fulcrum_mm],
+                "wait": ANSWER_WITHIN,
+            }
+            self._bridge = BridgeProcess(given, self.hub, self._say)
+        return CursorPort(self.port, self._bridge)
 
     def _greeted(self, port: Port) -> BoardInfo:
         info = super()._greeted(port)
-        version = port.service.version if isinstance(port, CursorPort) else ""
-        return replace(info, firmware=version, protocol="haply inverse3")
+        return replace(info, firmware=self._service.version, protocol="haply inverse3")
 
 
 def robot_link(port: str, profile: DeviceProfile) -> SerialLink:
