@@ -24610,12 +24610,12 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{name}: ein Inverse3 steht für einen Pantographen; {profile} ist {kind}</translation>
         </message>
         <message>
-            <source>{name} is closed; call open() first</source>
-            <translation type="unfinished">{name} ist geschlossen; rufen Sie zuerst open() auf</translation>
-        </message>
-        <message>
             <source>{name}: the Haply service does not answer</source>
             <translation type="unfinished">{name}: der Haply-Dienst antwortet nicht</translation>
+        </message>
+        <message>
+            <source>{name}: its process has ended</source>
+            <translation type="unfinished">{name}: der Prozess dafür ist zu Ende</translation>
         </message>
         <message>
             <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>

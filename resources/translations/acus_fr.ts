@@ -24610,12 +24610,12 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{name} : un Inverse3 remplace un pantographe ; {profile} est un {kind}</translation>
         </message>
         <message>
-            <source>{name} is closed; call open() first</source>
-            <translation type="unfinished">{name} est fermé ; appelez d’abord open()</translation>
-        </message>
-        <message>
             <source>{name}: the Haply service does not answer</source>
             <translation type="unfinished">{name} : le service Haply ne répond pas</translation>
+        </message>
+        <message>
+            <source>{name}: its process has ended</source>
+            <translation type="unfinished">{name} : son processus est terminé</translation>
         </message>
         <message>
             <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>

@@ -341,8 +341,8 @@ class BridgeProcess:
         self._process.wait()
 
     def _listen(self) -> None:
-        with cast(IO[bytes], self._process.stdout) as told:
-            for line in told:
+        with cast(IO[bytes], self._process.stdout) as lines:
+            for line in lines:
                 kind, *said = json.loads(line)
                 if kind == "hub":
                     moment, (axis, l_out, inside) = said

@@ -370,8 +370,8 @@ class InverseService:
             raise self._unusable(
                 sentence("its mount is scaled: set the scale to 1, so that a metre is one")
             )
-        told = tuple(map(int, re.findall(r"\d+", self.version)[:2]))
-        newer = told >= (3, 5) if self.version else "session_id" in document
+        known = tuple(map(int, re.findall(r"\d+", self.version)[:2]))
+        newer = known >= (3, 5) if self.version else "session_id" in document
         self.device, self._key = device, "vector" if newer else "values"
         if newer:  # for this session the axes of the maker's own frame, whatever else is set
             configure = {"profile": {"name": "acus"}, "basis": {"permutation": "XYZ"}}
