@@ -91,8 +91,8 @@ class HubTracker:
         elif stamped.time <= self._seen:
             return
         elif not stamped.value.inside:
-            said = sentence("the hub is where no needle can be: lift it over the entry")
-            fix = self._none(FixStatus.OUT_OF_VIEW, stamped.time, said)
+            reason = sentence("the hub is where no needle can be: lift it over the entry")
+            fix = self._none(FixStatus.OUT_OF_VIEW, stamped.time, reason)
         else:
             hub, self._seen = stamped.value, stamped.time
             axis = np.array(hub.axis)

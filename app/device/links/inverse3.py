@@ -191,7 +191,7 @@ class Bridge:
         self._step = 2.0 * np.pi / profile.encoder.counts_per_turn
         self._rest, self._silent, self._ended = b"", False, False
         self._pose: _Played | None = None
-        self._inside_since, self._told = float(np.inf), 0.0
+        self._inside_since, self._shown = float(np.inf), 0.0
         self._frame, self._payload = np.zeros(256, np.uint8), np.zeros(256, np.uint8)
 
     def run(self, end: socket.socket) -> None:
@@ -248,7 +248,9 @@ class Bridge:
         if cursor is None:
             if not self._silent:
                 name = self._service.name
-                self._tell("said", sentence("{name}: the Haply service does not answer", name=name))
+                self._tell(
+                    "event", sentence("{name}: the Haply service does not answer", name=name)
+                )
             self._silent, self._pose, self._inside_since = True, None, np.inf
             return
         pose = self._played.pose(cursor)
@@ -257,8 +259,8 @@ class Bridge:
         self._pose = pose or self._pose  # where none can be said the last one stands, forceless
         if self._pose is None:
             return
-        if now - self._told >= TELLS_EVERY:
-            self._told = now
+        if now - self._shown >= TELLS_EVERY:
+            self._shown = now
             self._tell("hub", now, self._pose.hub._replace(inside=inside))
         for command in commands:
             self._say(self._state(command, cursor, self._pose.q, now), end)
@@ -343,15 +345,15 @@ class BridgeProcess:
     def _listen(self) -> None:
         with cast(IO[bytes], self._process.stdout) as lines:
             for line in lines:
-                kind, *said = json.loads(line)
+                kind, *content = json.loads(line)
                 if kind == "hub":
-                    moment, (axis, l_out, inside) = said
+                    moment, (axis, l_out, inside) = content
                     self._latest.publish(Hub(tuple(axis), l_out, inside), moment)
                 elif kind == "state":
-                    self.trouble = said[0]
+                    self.trouble = content[0]
                     self._begun.set()
                 else:
-                    self._tell(said[0])
+                    self._tell(content[0])
         self._begun.set()
 
 
@@ -473,9 +475,9 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends when the loop's side is closed
     os.set_blocking(sys.stdout.fileno(), False)
 
-    def tell(*said: object) -> None:
+    def tell(*message: object) -> None:
         with suppress(OSError):  # nobody reads: what is newer comes later
-            os.write(sys.stdout.fileno(), json.dumps(said).encode() + b"\n")
+            os.write(sys.stdout.fileno(), json.dumps(message).encode() + b"\n")
 
     profile = parse(given["profile"], PantographProfile, "the profile for a Haply service")
     with socket.socket(fileno=descriptor) as end:
