@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
     from app.device.commissioning.results import AnyResult, RoutineName, RoutineReport
 
-Port = Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")]
+Port = Annotated[
+    str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0, or haply: for an Inverse3.")
+]
 Profile = Annotated[
     str,
     typer.Option(help="Device profile: a name or a YAML file.", autocompletion=completion.profiles),
@@ -86,10 +88,10 @@ def show(port: Port, profile: Profile = "icube") -> Answer:
     from dataclasses import asdict
 
     _check_there(port)
-    from app.device.links.serial_link import SerialLink
+    from app.device.links.inverse3 import robot_link
     from app.mechanisms.profile import load_profile
 
-    link = SerialLink(port, load_profile(profile))
+    link = robot_link(port, load_profile(profile))
     link.open()
     try:
         found = asdict(link.info())
@@ -148,8 +150,10 @@ def conform_(
 
     from app.core.files import write_atomically
     from app.device.conformance.suite import conform
+    from app.device.links.inverse_service import refuse_inverse3
     from app.mechanisms.profile import load_profile
 
+    refuse_inverse3(port)
     result = conform(
         port,
         load_profile(profile),
@@ -205,9 +209,11 @@ def calibrate(
     from app.commands.answers import Answers, numbers
     from app.device.commissioning.bench import Bench
     from app.device.commissioning.results import RoutineName
+    from app.device.links.inverse_service import refuse_inverse3
     from app.device.links.serial_link import SerialLink
     from app.mechanisms.profile import load_profile
 
+    refuse_inverse3(port)
     chosen = load_profile(profile)
     steps = [RoutineName(name.value) for name in step or ()] or [
         RoutineName.HOMING,

@@ -27,7 +27,10 @@ def run(
     ] = "",
     device: Annotated[
         str | None,
-        typer.Option(help="Serial port of a real robot (docs/hardware.md); default: simulated."),
+        typer.Option(
+            help="Serial port of a real robot (docs/hardware.md), or haply: for an Inverse3"
+            " (docs/haply.md); default: simulated."
+        ),
     ] = None,
     cameras: Annotated[
         str | None,

@@ -14,8 +14,9 @@ from app.core.progress import Progress
 from app.device.commissioning.records import load_record
 from app.device.control.corrections import Corrections
 from app.device.errors import LinkError
+from app.device.links.inverse3 import Inverse3Link, robot_link
+from app.device.links.inverse_service import refuse_inverse3
 from app.device.links.link import DeviceLink
-from app.device.links.serial_link import SerialLink
 from app.device.readiness import ForceClearance, Readiness
 from app.mechanisms.profile import DeviceProfile
 from app.views.shell.services import RobotPort
@@ -40,9 +41,11 @@ def open_bench(port: str, profile: DeviceProfile, progress: Progress) -> Bench:
     """Open the robot at a port for commissioning and wait for its first joint angles.
 
     Raises:
-        DeviceError: if nobody answers, somebody else does, or its record cannot be used.
+        DeviceError: if nobody answers, somebody else does, its record cannot be used, or it is an
+            Inverse3.
         Cancelled: if `progress` was cancelled; nothing stays open then.
     """
+    refuse_inverse3(port)
     progress.report(0.1, sentence("loading the routines"))
     with ONE_AT_A_TIME:  # kernels: behind the window, not before it
         from app.device.commissioning.bench import Bench
@@ -104,6 +107,8 @@ class Robot:
 
     def clearance(self) -> ForceClearance:
         """Return how much force the robot is cleared for now; another power cycle takes it away."""
+        if isinstance(self.link, Inverse3Link):
+            return self.link.clearance()
         return self.readiness.clearance(self.link.info(), self.profile)
 
     def metadata(self) -> dict[str, str]:
@@ -127,10 +132,10 @@ class Robot:
 
 
 def connect(port: str | None, profile: DeviceProfile) -> Robot | None:
-    """Connect to the robot on a serial port; None without one.
+    """Connect to the robot on a serial port, or at a Haply service; None without one.
 
     Raises:
         LinkError: if the port cannot be used or nobody answers; says what to do.
         RecordError: if the device's record is damaged.
     """
-    return Robot.connect(SerialLink(port, profile), profile) if port is not None else None
+    return Robot.connect(robot_link(port, profile), profile) if port is not None else None

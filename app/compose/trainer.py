@@ -16,6 +16,7 @@ from app.compose import effect_models
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.declared_views import declared_views
 from app.compose.exercise_field import recorded_field, with_field
+from app.compose.hub_tracker import CURSOR, HubTracker
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.needle_sources import NeedleSource, recorded_table
 from app.compose.robot import Robot, connect
@@ -29,6 +30,7 @@ from app.core.messages import sentence
 from app.core.paced_clock import PacedClock
 from app.core.parameters import Stage
 from app.device.control import Loop, Table, laws, machine_stages
+from app.device.links.inverse3 import Inverse3Link
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exercises.ablation import check_electrodes
@@ -293,17 +295,23 @@ def _build_rig(
         setup.seed,
         pictures_of(placed, profile, robot is None),
     )
-    tracker = Tracker(
-        cameras.cameras,
-        cameras.rig,
-        setup.clock,
-        axis=measured_axis(loop),
-        fulcrum=profile.fulcrum,
-        on_fix=lambda fix: trainer.on_fix(fix),
-        force=felt_force(loop),
-        colour=cameras.colour,
-        paced=_paced_fixes(setup, cameras.rig),
-    )
+    trust = DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None)
+    tracker: NeedleTracker
+    if robot is not None and isinstance(robot.link, Inverse3Link):
+        cameras, trust = replace(cameras, metadata=CURSOR), DepthTrust(FASTEST)  # it is in the air
+        tracker = HubTracker(robot.link, profile, setup.clock, lambda fix: trainer.on_fix(fix))
+    else:
+        tracker = Tracker(
+            cameras.cameras,
+            cameras.rig,
+            setup.clock,
+            axis=measured_axis(loop),
+            fulcrum=profile.fulcrum,
+            on_fix=lambda fix: trainer.on_fix(fix),
+            force=felt_force(loop),
+            colour=cameras.colour,
+            paced=_paced_fixes(setup, cameras.rig),
+        )
     trainer = Trainer(
         loop,
         tracker,
@@ -315,7 +323,7 @@ def _build_rig(
         held_arming=setup.held_arming or robot is not None,
         risks=setup.risks,
         tissues=setup.tissues,
-        trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
+        trust=trust,
         start=Start.SIMULATED if robot is None else Start.REAL,
         beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
         simulated=robot is None and real is None,

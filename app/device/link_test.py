@@ -11,6 +11,7 @@ from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.device.control import Loop, Table
 from app.device.errors import LinkError, LoopError
+from app.device.links.inverse3 import robot_link
 from app.device.links.link import describe_error
 from app.device.links.serial_link import SILENCE, SerialLink
 from app.mechanisms.profile import DeviceProfile
@@ -111,7 +112,7 @@ def measure_link(port: str, profile: DeviceProfile, seconds: float) -> LinkResul
     Raises:
         LinkError: if the robot cannot be reached, or answers so rarely that nothing can be said.
     """
-    link = SerialLink(port, profile)
+    link = robot_link(port, profile)
     # No write side of its own: there is nothing to stop, because no torque was ever wanted.
     table = Table.of(link.test_stages(WAIT_SHARE / profile.rate_hz))
     loop = Loop(table, profile.rate_hz, link=link)

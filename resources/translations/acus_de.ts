@@ -14377,8 +14377,72 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">gehalten, {age} alt</translation>
         </message>
         <message>
+            <source>{name} is no address of a Haply service; valid are haply:, haply:HOST and haply:HOST:PORT</source>
+            <translation type="unfinished">{name} ist keine Adresse eines Haply-Dienstes; gültig sind haply:, haply:HOST und haply:HOST:PORT</translation>
+        </message>
+        <message>
+            <source>no Haply service answers at {host} port {port} ({error}): start it (Haply Hub, or `systemctl start haply-inverse-service`) and plug the Inverse3 in</source>
+            <translation type="unfinished">bei {host}, Port {port}, antwortet kein Haply-Dienst ({error}): starten Sie ihn (Haply Hub oder `systemctl start haply-inverse-service`) und stecken Sie das Inverse3 ein</translation>
+        </message>
+        <message>
+            <source>it says nothing</source>
+            <translation type="unfinished">er sagt nichts</translation>
+        </message>
+        <message>
+            <source>it does not stop sending</source>
+            <translation type="unfinished">er hört nicht auf zu senden</translation>
+        </message>
+        <message>
+            <source>it is closed</source>
+            <translation type="unfinished">die Verbindung ist geschlossen</translation>
+        </message>
+        <message>
+            <source>it sends no JSON</source>
+            <translation type="unfinished">er sendet kein JSON</translation>
+        </message>
+        <message>
+            <source>it sends no state</source>
+            <translation type="unfinished">er sendet keinen Zustand</translation>
+        </message>
+        <message>
             <source>unknown</source>
             <translation type="unfinished">unbekannt</translation>
+        </message>
+        <message>
+            <source>{name}: no Inverse3 is plugged in: look at cable and power</source>
+            <translation type="unfinished">{name}: kein Inverse3 ist eingesteckt: sehen Sie nach Kabel und Strom</translation>
+        </message>
+        <message>
+            <source>{name}: the Inverse3 {device} is gone; another is there</source>
+            <translation type="unfinished">{name}: das Inverse3 {device} ist fort; ein anderes ist da</translation>
+        </message>
+        <message>
+            <source>it names no device</source>
+            <translation type="unfinished">er nennt kein Gerät</translation>
+        </message>
+        <message>
+            <source>its mount is scaled: set the scale to 1, so that a metre is one</source>
+            <translation type="unfinished">seine Halterung ist skaliert: setzen Sie die Skala auf 1, damit ein Meter einer ist</translation>
+        </message>
+        <message>
+            <source>it sends no position of the cursor</source>
+            <translation type="unfinished">er sendet keinen Ort des Cursors</translation>
+        </message>
+        <message>
+            <source>its cursor is at {place}, which is no place</source>
+            <translation type="unfinished">sein Cursor ist bei {place}, was kein Ort ist</translation>
+        </message>
+        <message>
+            <source>{name}: the Haply service there speaks version {version}, this program 3.1 to 3.5 on port {port}; update the older of the two</source>
+            <translation type="unfinished">{name}: der Haply-Dienst dort spricht Version {version}, dieses Programm 3.1 bis 3.5 an Port {port}; bringen Sie das ältere von beiden auf den neuen Stand</translation>
+        </message>
+        <message>
+            <source>{name}: the Haply service cannot be used: {reason}</source>
+            <translation type="unfinished">{name}: der Haply-Dienst kann nicht verwendet werden: {reason}</translation>
+        </message>
+        <message>
+            <source>{name} is gone: {error}</source>
+            <translation type="unfinished">{name} ist fort: {error}</translation>
         </message>
         <message>
             <source>The depth is measured by the cameras; by one of them and the needle's line, less exactly, while the other does not see the marker. Without a fix it is held for 200 ms. After that, and until ten pictures in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have. Wait until the cameras see the marker again.</source>
@@ -24532,6 +24596,42 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the exercise does not have the patient turned</source>
             <translation type="unfinished">in der Übung wird der Patient nicht gedreht</translation>
+        </message>
+        <message>
+            <source>the Inverse3 tells no place</source>
+            <translation type="unfinished">das Inverse3 nennt keinen Ort</translation>
+        </message>
+        <message>
+            <source>the hub is where no needle can be: lift it over the entry</source>
+            <translation type="unfinished">der Ansatz ist, wo keine Nadel sein kann: heben Sie ihn über den Eintritt</translation>
+        </message>
+        <message>
+            <source>{name}: an Inverse3 stands in for a pantograph; {profile} is a {kind}</source>
+            <translation type="unfinished">{name}: ein Inverse3 steht für einen Pantographen; {profile} ist {kind}</translation>
+        </message>
+        <message>
+            <source>{name}: the Haply service does not answer</source>
+            <translation type="unfinished">{name}: der Haply-Dienst antwortet nicht</translation>
+        </message>
+        <message>
+            <source>{name}: its process has ended</source>
+            <translation type="unfinished">{name}: der Prozess dafür ist zu Ende</translation>
+        </message>
+        <message>
+            <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>
+            <translation type="unfinished">Kräfte sind auf {cap:g} N begrenzt: die eines Haply Inverse3 wurden hier nie gewogen</translation>
+        </message>
+        <message>
+            <source>{port}: an Inverse3 finds its zero by itself and has no board of ours: there is nothing to commission; try `acus device test {port}`</source>
+            <translation type="unfinished">{port}: ein Inverse3 findet seinen Nullpunkt selbst und hat keine Platine von uns: es gibt nichts in Betrieb zu nehmen; versuchen Sie `acus device test {port}`</translation>
+        </message>
+        <message>
+            <source>it does not answer a greeting</source>
+            <translation type="unfinished">eine Begrüßung wird nicht beantwortet</translation>
+        </message>
+        <message>
+            <source>the other side has closed it</source>
+            <translation type="unfinished">die Gegenseite hat sie geschlossen</translation>
         </message>
     </context>
 </TS>

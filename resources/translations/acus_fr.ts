@@ -14377,8 +14377,72 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">maintenue, âge {age}</translation>
         </message>
         <message>
+            <source>{name} is no address of a Haply service; valid are haply:, haply:HOST and haply:HOST:PORT</source>
+            <translation type="unfinished">{name} n’est pas l’adresse d’un service Haply ; sont valables haply:, haply:HOST et haply:HOST:PORT</translation>
+        </message>
+        <message>
+            <source>no Haply service answers at {host} port {port} ({error}): start it (Haply Hub, or `systemctl start haply-inverse-service`) and plug the Inverse3 in</source>
+            <translation type="unfinished">aucun service Haply ne répond à {host}, port {port} ({error}) : démarrez-le (Haply Hub, ou `systemctl start haply-inverse-service`) et branchez l’Inverse3</translation>
+        </message>
+        <message>
+            <source>it says nothing</source>
+            <translation type="unfinished">il ne dit rien</translation>
+        </message>
+        <message>
+            <source>it does not stop sending</source>
+            <translation type="unfinished">il ne cesse d’envoyer</translation>
+        </message>
+        <message>
+            <source>it is closed</source>
+            <translation type="unfinished">la connexion est fermée</translation>
+        </message>
+        <message>
+            <source>it sends no JSON</source>
+            <translation type="unfinished">il n’envoie pas de JSON</translation>
+        </message>
+        <message>
+            <source>it sends no state</source>
+            <translation type="unfinished">il n’envoie pas d’état</translation>
+        </message>
+        <message>
             <source>unknown</source>
             <translation type="unfinished">inconnu</translation>
+        </message>
+        <message>
+            <source>{name}: no Inverse3 is plugged in: look at cable and power</source>
+            <translation type="unfinished">{name} : aucun Inverse3 n’est branché : vérifiez le câble et l’alimentation</translation>
+        </message>
+        <message>
+            <source>{name}: the Inverse3 {device} is gone; another is there</source>
+            <translation type="unfinished">{name} : l’Inverse3 {device} a disparu ; un autre est là</translation>
+        </message>
+        <message>
+            <source>it names no device</source>
+            <translation type="unfinished">il ne nomme aucun appareil</translation>
+        </message>
+        <message>
+            <source>its mount is scaled: set the scale to 1, so that a metre is one</source>
+            <translation type="unfinished">son support est mis à l’échelle : mettez l’échelle à 1, pour qu’un mètre en soit un</translation>
+        </message>
+        <message>
+            <source>it sends no position of the cursor</source>
+            <translation type="unfinished">il n’envoie pas la position du curseur</translation>
+        </message>
+        <message>
+            <source>its cursor is at {place}, which is no place</source>
+            <translation type="unfinished">son curseur est à {place}, ce qui n’est pas un lieu</translation>
+        </message>
+        <message>
+            <source>{name}: the Haply service there speaks version {version}, this program 3.1 to 3.5 on port {port}; update the older of the two</source>
+            <translation type="unfinished">{name} : le service Haply y parle la version {version}, ce programme les versions 3.1 à 3.5 sur le port {port} ; mettez à jour le plus ancien des deux</translation>
+        </message>
+        <message>
+            <source>{name}: the Haply service cannot be used: {reason}</source>
+            <translation type="unfinished">{name} : le service Haply ne peut pas être utilisé : {reason}</translation>
+        </message>
+        <message>
+            <source>{name} is gone: {error}</source>
+            <translation type="unfinished">{name} a disparu : {error}</translation>
         </message>
         <message>
             <source>The depth is measured by the cameras; by one of them and the needle's line, less exactly, while the other does not see the marker. Without a fix it is held for 200 ms. After that, and until ten pictures in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have. Wait until the cameras see the marker again.</source>
@@ -24532,6 +24596,42 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>the exercise does not have the patient turned</source>
             <translation type="unfinished">dans l'exercice, le patient n'est pas tourné</translation>
+        </message>
+        <message>
+            <source>the Inverse3 tells no place</source>
+            <translation type="unfinished">l’Inverse3 ne donne pas de position</translation>
+        </message>
+        <message>
+            <source>the hub is where no needle can be: lift it over the entry</source>
+            <translation type="unfinished">l’embase est là où aucune aiguille ne peut être : levez-la au-dessus de l’entrée</translation>
+        </message>
+        <message>
+            <source>{name}: an Inverse3 stands in for a pantograph; {profile} is a {kind}</source>
+            <translation type="unfinished">{name} : un Inverse3 remplace un pantographe ; {profile} est un {kind}</translation>
+        </message>
+        <message>
+            <source>{name}: the Haply service does not answer</source>
+            <translation type="unfinished">{name} : le service Haply ne répond pas</translation>
+        </message>
+        <message>
+            <source>{name}: its process has ended</source>
+            <translation type="unfinished">{name} : son processus est terminé</translation>
+        </message>
+        <message>
+            <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>
+            <translation type="unfinished">les forces sont limitées à {cap:g} N : celles d’un Haply Inverse3 n’ont jamais été pesées ici</translation>
+        </message>
+        <message>
+            <source>{port}: an Inverse3 finds its zero by itself and has no board of ours: there is nothing to commission; try `acus device test {port}`</source>
+            <translation type="unfinished">{port} : un Inverse3 trouve seul son zéro et n’a pas de carte à nous : il n’y a rien à mettre en service ; essayez `acus device test {port}`</translation>
+        </message>
+        <message>
+            <source>it does not answer a greeting</source>
+            <translation type="unfinished">la salutation reste sans réponse</translation>
+        </message>
+        <message>
+            <source>the other side has closed it</source>
+            <translation type="unfinished">l’autre côté l’a fermée</translation>
         </message>
     </context>
 </TS>

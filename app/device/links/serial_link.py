@@ -247,7 +247,7 @@ class SerialLink(DeviceLink):
         """Open the port, greet, and put it into the stages; `serial` is the board expected."""
         self._end[host.STATUS] = LinkStatus.CONNECTING
         self._plug.take_away()
-        port = Port(self.port, self.profile.wire.baud)
+        port = self._make_port()
         port.open()
         try:
             info = self._greeted(port)
@@ -273,6 +273,9 @@ class SerialLink(DeviceLink):
         self._say(f"connected to {info.profile or 'a board'} on {self.port}", boot=info.boot)
         if self._on_connect is not None:
             self._on_connect(info)
+
+    def _make_port(self) -> Port:
+        return Port(self.port, self.profile.wire.baud)
 
     def _greeted(self, port: Port) -> BoardInfo:
         """Greet; what goes wrong is said with the port: there may be several robots."""
