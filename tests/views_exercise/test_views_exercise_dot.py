@@ -170,3 +170,11 @@ def test_in_an_attempt_the_bullseye_says_one_figure_and_no_other_word(pad, qt):
     assert not pad._figure.isVisible()
     assert pad._remaining.isVisible()
     assert pad._remaining.text() == "–" != before
+
+
+def test_in_a_narrow_pane_the_depth_bar_covers_no_letter_of_the_pad(pad, qt):
+    pad.set_plain(True)
+    pad.resize(166, 380)
+    qt.processEvents()
+    assert pad.pad.geometry().right() < pad.depth_bar.geometry().left()
+    assert pad.pad.width() >= 65

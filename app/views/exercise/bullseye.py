@@ -298,7 +298,10 @@ class Bullseye(QWidget):
 
     def _fit_plain(self) -> None:
         self._marks.hide()
-        self.pad.setMinimumSize(SMALLEST_PAD, SMALLEST_PAD)
+        beside = self.depth_bar, *(one for one in (self._pull, self._push) if not one.isHidden())
+        aside = max(one.sizeHint().width() for one in beside) + 3 * theme.SPACING
+        pad = max(SMALLEST_PAD // 2, min(SMALLEST_PAD, self.width() - aside))
+        self.pad.setMinimumSize(pad, pad)  # in a narrower pane its letters would lie under the bar
         self.depth_bar.setMinimumHeight(SMALLEST_PAD // 2)
         self._figure.setStyleSheet(_label_style(theme.TITLE_PX, theme.TEXT))
         self._figure.setFixedHeight(
