@@ -74,7 +74,7 @@ def test_what_passed_before_a_death_is_not_run_again(tmp_path):
         capture_output=True,
         text=True,
         check=False,
-        timeout=60,
+        timeout=240,
     )
     assert done.returncode == 0, done.stdout
     assert (tmp_path / "runs.txt").read_text() == "01223"
@@ -122,7 +122,7 @@ def test_a_run_that_may_take_so_long_ends_then_and_begins_with_another_file_each
             capture_output=True,
             text=True,
             check=False,
-            timeout=60,
+            timeout=240,
         )
         assert done.returncode == 0, done.stdout
         passed = re.findall(r"PASSED test_(\w)\.py::(\w+)", done.stdout)

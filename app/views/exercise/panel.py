@@ -69,6 +69,7 @@ class AttemptActions(QWidget):
         )
         self._keys: list[tuple[QShortcut, FittingButton]] = []
         self._ends = self._out = self._narrow = False
+        self._placed: tuple[bool, bool] | None = None
         self._state: tuple[State | None, bool, str] = (None, False, "")
         self._escape = HoldKey(Qt.Key.Key_Escape, self)
         self._escape.held.connect(self.abort.click)  # a disabled button ignores it
@@ -146,6 +147,9 @@ class AttemptActions(QWidget):
         ends = self.end, self.abort
         widest = max(button.shortest_px for button in ends)
         side = self._narrow and 2 * widest + self._grid.horizontalSpacing() <= self.width()
+        if (self._narrow, side) == self._placed:
+            return
+        self._placed = self._narrow, side
         places = {
             self.scan: (1, 0, 1, 2 if self._narrow else 1),
             self.end: (2, 0, 1, 1 if side else 2) if self._narrow else (1, 1, 1, 1),
