@@ -12,15 +12,13 @@ from typing import Final
 import numpy as np
 
 from app.core.clock import Clock
-from app.core.latest import Latest
 from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE
 from app.device.links.inverse3 import Inverse3Link
 from app.mechanisms.profile import DeviceProfile
 from app.tracking.fix import FixStatus, NeedleFix, without_point
-from app.tracking.inspection import Inspection
-from app.tracking.statistics import TrackerMeter, TrackerStatistics
+from app.tracking.told_fixes import ToldFixes
 
 EVERY: Final = 0.02
 """Time between two fixes [s]."""
@@ -32,7 +30,7 @@ CURSOR: Final = {"name": "Haply Inverse3", "simulated": "no", "source": "cursor"
 """What a record says of its cameras."""
 
 
-class HubTracker:
+class HubTracker(ToldFixes):
     """Makes fixes of the cursor's places (`tracking.needle_tracker.NeedleTracker`).
 
     Args:
@@ -42,8 +40,6 @@ class HubTracker:
         on_fix: gets every fix, in the tracker's thread.
     """
 
-    stereo = None
-
     def __init__(
         self,
         link: Inverse3Link,
@@ -51,10 +47,9 @@ class HubTracker:
         clock: Clock,
         on_fix: Callable[[NeedleFix], None],
     ) -> None:
-        self.latest: Latest[NeedleFix] = Latest()
-        self.events = link.events
-        self._link, self._profile, self._clock, self._on_fix = link, profile, clock, on_fix
-        self._meter, self._seen = TrackerMeter(), -np.inf
+        super().__init__(clock)
+        self.events, self._seen = link.events, -np.inf
+        self._link, self._profile, self._on_fix = link, profile, on_fix
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
 
@@ -71,17 +66,6 @@ class HubTracker:
         thread, self._thread = self._thread, None
         if thread is not None and thread is not threading.current_thread():
             thread.join(timeout=2.0)
-
-    def statistics(self) -> TrackerStatistics:
-        """Return the figures of the last seconds."""
-        stamped = self.latest.read()
-        newest = stamped.value if stamped else None
-        return self._meter.statistics(self._clock.now(), newest, (), "")
-
-    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
-        """Return the newest fix; there are no pictures."""
-        stamped = self.latest.read()
-        return Inspection((), stamped.value if stamped else None, cameras=1)
 
     def look(self) -> None:
         """Make a fix of the newest place."""

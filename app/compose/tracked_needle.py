@@ -22,7 +22,6 @@ from app.core.arrays import FloatArray, unit
 from app.core.clock import Clock
 from app.core.configuration import Strict, load
 from app.core.events import Event, EventQueue
-from app.core.latest import Latest
 from app.core.staleness import TRACKER_HOLD
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -37,8 +36,7 @@ from app.planning.placement import PlacedPlan
 from app.session.conditions import TRAINEE
 from app.simulation.plant import initial_plant
 from app.tracking.fix import FixStatus, NeedleFix, without_point
-from app.tracking.inspection import Inspection
-from app.tracking.statistics import TrackerMeter, TrackerStatistics
+from app.tracking.told_fixes import ToldFixes
 
 DIRECT, RELATIVE, REFERENCE = "NeedleTipToRas", "NeedleTipToReference", "ReferenceToRas"
 F: Final = np.diag([-1.0, -1.0, 1.0])
@@ -76,7 +74,7 @@ def load_tracked() -> TrackedSettings:
     return load(path, TrackedSettings) if path.exists() else TrackedSettings()
 
 
-class TrackedNeedle:
+class TrackedNeedle(ToldFixes):
     """Makes fixes of what a peer tells (`tracking.needle_tracker.NeedleTracker`).
 
     Args:
@@ -88,8 +86,6 @@ class TrackedNeedle:
         on_needle: gets direction in world, shape (3,), and its time [s] before each valid fix.
     """
 
-    stereo = None
-
     def __init__(
         self,
         address: Address,
@@ -99,15 +95,15 @@ class TrackedNeedle:
         patient: Callable[[], RigidTransform],
         on_needle: Callable[[FloatArray, float], None],
     ) -> None:
-        self.latest: Latest[NeedleFix] = Latest()
+        super().__init__(clock)
         self.events = EventQueue()
         self.client = IgtlClient(address, self.take)
-        self._settings, self._clock = settings, clock
+        self._settings = settings
         self._fulcrum, self._patient, self._on_needle = np.array(fulcrum), patient, on_needle
         self._on_fix: Callable[[NeedleFix], None] | None = None
         self._reference: FloatArray | None = None
         self._time, self._seen = PeerTime(), (-1.0, b"")
-        self._meter, self._misses = TrackerMeter(), False
+        self._misses = False
         self._watch: threading.Thread | None = None
         self._stop = threading.Event()
         self._heard = -np.inf
@@ -132,17 +128,6 @@ class TrackedNeedle:
         watch, self._watch = self._watch, None
         if watch is not None and watch is not threading.current_thread():
             watch.join(timeout=2.0)
-
-    def statistics(self) -> TrackerStatistics:
-        """Return the figures of the last seconds."""
-        stamped = self.latest.read()
-        newest = stamped.value if stamped else None
-        return self._meter.statistics(self._clock.now(), newest, (), "")
-
-    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
-        """Return the newest fix; there are no pictures."""
-        stamped = self.latest.read()
-        return Inspection((), stamped.value if stamped else None, cameras=1)
 
     def take(self, message: igtl.Message, arrived: float) -> None:
         """Take a TRANSFORM; `arrived`: time [s].

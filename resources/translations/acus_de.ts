@@ -14445,6 +14445,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{name} ist fort: {error}</translation>
         </message>
         <message>
+            <source>{port} is an Inverse3: it finds its zero by itself and has no board of ours: there is nothing to commission; try `acus device test {port}`</source>
+            <translation type="unfinished">{port} ist ein Inverse3: er findet seinen Nullpunkt selbst und hat keine Platine von uns: es gibt nichts in Betrieb zu nehmen; versuchen Sie `acus device test {port}`</translation>
+        </message>
+        <message>
             <source>The depth is measured by the cameras; by one of them and the needle's line, less exactly, while the other does not see the marker. Without a fix it is held for 200 ms. After that, and until ten pictures in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have. Wait until the cameras see the marker again.</source>
             <translation type="unfinished">Die Tiefe wird von den Kameras gemessen; von einer und der Linie der Nadel weniger genau, solange die andere den Marker nicht sieht. Ohne Messung wird sie 200 ms lang gehalten. Danach, und bis zehn Bilder in Folge übereinstimmen, kennt sie niemand: Die Kraft wird für die ungünstigste Tiefe zurückgehalten, die die Nadel haben kann. Warten Sie, bis die Kameras den Marker wieder sehen.</translation>
         </message>
@@ -17148,8 +17152,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Anderer Port</translation>
         </message>
         <message>
-            <source>Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has printed</source>
-            <translation type="unfinished">Port des Roboters, zum Beispiel /dev/ttyUSB0, oder was `acus device emulate` ausgegeben hat</translation>
+            <source>Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has printed;
+haply: is a Haply Inverse3</source>
+            <translation type="unfinished">Port des Roboters, zum Beispiel /dev/ttyUSB0, oder was `acus device emulate` ausgegeben hat;
+haply: ist ein Haply Inverse3</translation>
         </message>
         <message>
             <source>The simulated robot needs no commissioning: choose the robot's port in the menu Robot, Use. `acus device emulate` brings one to practise on.</source>
@@ -24620,10 +24626,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>
             <translation type="unfinished">Kräfte sind auf {cap:g} N begrenzt: die eines Haply Inverse3 wurden hier nie gewogen</translation>
-        </message>
-        <message>
-            <source>{port}: an Inverse3 finds its zero by itself and has no board of ours: there is nothing to commission; try `acus device test {port}`</source>
-            <translation type="unfinished">{port}: ein Inverse3 findet seinen Nullpunkt selbst und hat keine Platine von uns: es gibt nichts in Betrieb zu nehmen; versuchen Sie `acus device test {port}`</translation>
         </message>
         <message>
             <source>it does not answer a greeting</source>

@@ -14445,6 +14445,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{name} a disparu : {error}</translation>
         </message>
         <message>
+            <source>{port} is an Inverse3: it finds its zero by itself and has no board of ours: there is nothing to commission; try `acus device test {port}`</source>
+            <translation type="unfinished">{port} est un Inverse3 : il trouve seul son zéro et n’a pas de carte à nous : il n’y a rien à mettre en service ; essayez `acus device test {port}`</translation>
+        </message>
+        <message>
             <source>The depth is measured by the cameras; by one of them and the needle's line, less exactly, while the other does not see the marker. Without a fix it is held for 200 ms. After that, and until ten pictures in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have. Wait until the cameras see the marker again.</source>
             <translation type="unfinished">La profondeur est mesurée par les caméras ; par l’une d’elles et la ligne de l’aiguille, moins précisément, tant que l’autre ne voit pas le marqueur. Sans mesure, elle est maintenue 200 ms. Ensuite, et jusqu’à ce que dix images de suite concordent, nul ne la connaît : la force est retenue pour la profondeur la plus défavorable possible. Attendez que les caméras revoient le marqueur.</translation>
         </message>
@@ -17148,8 +17152,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Autre port</translation>
         </message>
         <message>
-            <source>Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has printed</source>
-            <translation type="unfinished">Port du robot, par exemple /dev/ttyUSB0, ou ce qu’a affiché `acus device emulate`</translation>
+            <source>Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has printed;
+haply: is a Haply Inverse3</source>
+            <translation type="unfinished">Port du robot, par exemple /dev/ttyUSB0, ou ce qu’a affiché `acus device emulate` ;
+haply: est un Haply Inverse3</translation>
         </message>
         <message>
             <source>The simulated robot needs no commissioning: choose the robot's port in the menu Robot, Use. `acus device emulate` brings one to practise on.</source>
@@ -24620,10 +24626,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>
             <translation type="unfinished">les forces sont limitées à {cap:g} N : celles d’un Haply Inverse3 n’ont jamais été pesées ici</translation>
-        </message>
-        <message>
-            <source>{port}: an Inverse3 finds its zero by itself and has no board of ours: there is nothing to commission; try `acus device test {port}`</source>
-            <translation type="unfinished">{port} : un Inverse3 trouve seul son zéro et n’a pas de carte à nous : il n’y a rien à mettre en service ; essayez `acus device test {port}`</translation>
         </message>
         <message>
             <source>it does not answer a greeting</source>

@@ -140,6 +140,17 @@ def test_every_tool_has_its_order_on_the_line_over_the_views() -> None:
     assert len(words) == len(TOOLS) + 2
 
 
+def test_a_step_is_asked_for_once_however_fast_its_key_is_pressed(panel: ProcedurePanel) -> None:
+    """Seen: pressed three times, J told in red "that was checked already"."""
+    panel.show_procedure(turned(ToolInHand.ANAESTHETIC), True, None)
+    for _ in range(3):
+        panel.next.click()
+    panel.show_procedure(turned(ToolInHand.ANAESTHETIC, checked=(Step.CONSENT,)), True, None)
+    panel.next.click()
+    steps = [one[0] for one in panel.seen]  # type: ignore[attr-defined]
+    assert steps == [Step.CONSENT, Step.COAGULATION]
+
+
 def test_before_the_first_movement_the_line_says_what_comes_then() -> None:
     step = NextStep(StepKind.MOVE, procedure=turned(ToolInHand.ANAESTHETIC))
     assert step_words(step, True) == (

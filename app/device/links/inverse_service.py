@@ -430,8 +430,8 @@ def refuse_inverse3(port: str) -> None:
     if port.startswith(PREFIX):
         raise LinkError(
             sentence(
-                "{port}: an Inverse3 finds its zero by itself and has no board of ours: there is"
-                " nothing to commission; try `acus device test {port}`",
+                "{port} is an Inverse3: it finds its zero by itself and has no board of ours:"
+                " there is nothing to commission; try `acus device test {port}`",
                 port=port,
             )
         )

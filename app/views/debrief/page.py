@@ -105,7 +105,8 @@ class ScanList(QTableWidget):
         header = self.horizontalHeader()
         header.setMinimumSectionSize(24)
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setSectionResizeMode(3, QHeaderView.ResizeMode.Stretch)
+        # What a scan shows is read first; where its slices lie is whole in the tip.
+        header.setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
         header.setHighlightSections(False)
         self.cellActivated.connect(lambda row, _: self.scan_wanted.emit(self._scans[row]))
         self.hide()
@@ -118,6 +119,7 @@ class ScanList(QTableWidget):
         for row, scan in enumerate(self._scans):
             for column, text in enumerate(cells(scan, review.clock_at(scan.time))):
                 item = QTableWidgetItem(text)
+                item.setToolTip(literal(text))
                 if column == _COLUMNS - 1:
                     item.setTextAlignment(
                         Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter

@@ -101,9 +101,8 @@ class AblationPanel(StepPanel):
         self._offer_other(beside)
         self._follow_buttons()
 
-    def _ask(self, step: Step | None) -> None:
-        if step is not None:
-            self.asked.emit(step, max(0, self.setting.currentIndex()), 0.0)
+    def _setting(self) -> tuple[int, float]:
+        return max(0, self.setting.currentIndex()), 0.0
 
 
 def of_electrodes(

@@ -140,10 +140,8 @@ class ProcedurePanel(StepPanel):
         self.fire.setEnabled(Step.FIRE in possible)
         self._follow_buttons()
 
-    def _ask(self, step: Step | None) -> None:
-        if step is not None:
-            number_of, turned = max(0, self.throw.currentIndex()), self.notch.currentData()
-            self.asked.emit(step, number_of, float(turned))
+    def _setting(self) -> tuple[int, float]:
+        return max(0, self.throw.currentIndex()), float(self.notch.currentData())
 
     def _prepare(self) -> None:
         self.fire.clicked.connect(lambda: self._ask(Step.FIRE))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from time import monotonic
 from typing import Final
 
 from PySide6.QtCore import Qt, Signal
@@ -54,6 +55,9 @@ class KeyedPanel(QWidget):
 
 OTHER_KEY: Final = "Alt+J"
 
+ANSWERED_S: Final = 0.5
+"""A step that was asked for shows in the state, or is refused, within this time [s]."""
+
 _NEWEST: Final = 3
 """Lines of what was done that are shown."""
 
@@ -72,6 +76,8 @@ class StepPanel(KeyedPanel):
         self._state: ProcedureState | None = None
         self._step: Step | None = None
         self._beside: Step | None = None
+        self._asked: tuple[Step | None, ProcedureState | None] = None, None
+        self._asked_at = 0.0
         self.held, self.results = PlainLabel(self), PlainLabel(self)
         self.next, self.other = step_button(), step_button()
         self.held.setWordWrap(True)
@@ -84,6 +90,16 @@ class StepPanel(KeyedPanel):
         self._key(OTHER_KEY, self.other)
 
     def _ask(self, step: Step | None) -> None:
+        """Ask for a step: whoever presses faster than its state comes back asks once."""
+        now, asked = monotonic(), (step, self._state)
+        again = step is self._asked[0] and self._state is self._asked[1]
+        if step is None or (again and now - self._asked_at < ANSWERED_S):
+            return
+        self._asked, self._asked_at = asked, now
+        self.asked.emit(step, *self._setting())
+
+    def _setting(self) -> tuple[int, float]:
+        """Return the setting that is chosen, and how the notch is turned [°]."""
         raise NotImplementedError
 
     def _show_results(self, warnings: Sequence[str], done: Sequence[str]) -> None:

@@ -152,11 +152,15 @@ class FittingButton(QPushButton):
         return hint + QSize(metrics.horizontalAdvance(self._whole) - shown, 0)
 
     @property
+    def _keyless(self) -> str:
+        return self._whole.rpartition(" (")[0] or self._whole
+
+    @property
     def shortest_px(self) -> int:
         """Return the width in which no letter but those of its key goes [px]."""
-        without, metrics = self._whole.rpartition(" (")[0] or self._whole, self.fontMetrics()
-        spared = metrics.horizontalAdvance(self._whole) - metrics.horizontalAdvance(without)
-        return self.sizeHint().width() - spared
+        metrics = self.fontMetrics()
+        key = metrics.horizontalAdvance(self._whole) - metrics.horizontalAdvance(self._keyless)
+        return self.sizeHint().width() - key
 
     def minimumSizeHint(self) -> QSize:
         """Return what a few letters take."""
@@ -174,7 +178,7 @@ class FittingButton(QPushButton):
         element = QStyle.SubElement.SE_PushButtonContents
         room = self.style().subElementRect(element, option, self).width()
         metrics = self.fontMetrics()
-        without = self._whole.rpartition(" (")[0] or self._whole
+        without = self._keyless
         forms = (self._whole, with_short_key(self._whole), without)
         fitting = (form for form in forms if metrics.horizontalAdvance(form) <= room)
         shown = next(fitting, "") or metrics.elidedText(without, Qt.TextElideMode.ElideRight, room)

@@ -229,7 +229,7 @@ class RobotFeature(Feature):
         dialog.setLabelText(
             tr(
                 "Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has "
-                "printed"
+                "printed;\nhaply: is a Haply Inverse3"
             )
         )
         dialog.setTextValue(self.port)
