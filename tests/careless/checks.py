@@ -143,6 +143,8 @@ class Checks(QObject):
         row = getattr(device, "row", None)
         if run is None or row is None:
             return
+        if row[sv.HOLDING] > 0.5:  # winches that hold push nobody: a hand feels its own push
+            return
         cap = float(row[sv.FORCE_CAP])
         limit = min(run.profile.limits.hand_force, cap if cap > 0.0 else math.inf)
         felt = math.hypot(*(float(row[slot]) for slot in (sv.FELT_X, sv.FELT_Y, sv.FELT_Z)))

@@ -116,17 +116,18 @@ class OrderBlock(PlainLabel):
         self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Take letters that fit the new width."""
+        """Take letters that fit the new width; the height is its own doing."""
         super().resizeEvent(event)
-        self.fit()
+        if event.size().width() != event.oldSize().width():
+            self.fit()
 
     def fit(self) -> None:
         """Take the largest letters in which all of it can be read; if none, more height."""
         high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
-        self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
+        least = (high + 2 * GRID) // GRID * GRID
         room = self.width() - 2 * GRID - _INDENT
         sizes = (theme.TITLE_PX, theme.FONT_PX, theme.SMALL_PX)
-        fitting = (px for px in sizes if _fits(self.text(), px, room, self.height() - 2 * GRID))
+        fitting = (px for px in sizes if _fits(self.text(), px, room, least - 2 * GRID))
         pixels = next(fitting, theme.SMALL_PX)
         ground = theme.now(theme.GOOD if self._good else theme.ACCENT)
         style = (
@@ -136,7 +137,8 @@ class OrderBlock(PlainLabel):
         if style != self.styleSheet():
             self.setStyleSheet(style)
         self.ensurePolished()
-        tall = max(self.height(), self.heightForWidth(self.width()))
+        self.setMinimumHeight(0)  # Qt makes no label less high for a width than its least
+        tall = max(least, self.heightForWidth(self.width()))
         self.setFixedHeight(-(-tall // GRID) * GRID)
 
 
@@ -328,9 +330,12 @@ class AttemptRail(QWidget):
     def suit_window(self, width: int) -> None:
         """Take the width that belongs to a window's [px], and what depends on it."""
         self.setFixedWidth(rail_width(width))
+        # As wide without a scroll bar as beside one: an order that is higher where it is narrower
+        # would call the bar, and send it away, without end.
+        wide = self.width() - self._area.verticalScrollBar().sizeHint().width()
+        self._area.widget().setFixedWidth(wide)
         self.order.fit()
-        bar = self._area.verticalScrollBar().sizeHint().width()  # it may come at any moment
-        self.figures.suit_width(self.width() - 2 * GRID - bar)
+        self.figures.suit_width(wide - 2 * GRID)
 
     def _lay_out(self) -> None:
         inner = QWidget(self)
