@@ -40,6 +40,7 @@ QUIET = (
     "QXcbConnection: XCB error",
     "propagateSizeHints",
     "Could not find any platform",
+    "Unable to detect a web browser",
 )
 
 
@@ -205,8 +206,11 @@ class Checks(QObject):
         controller.poll()
         said, is_english = [], code_for(chosen(self._window.settings)) == ENGLISH
         panel, pad = workspace.exercise_panel.readouts, workspace.bullseye
-        other_words = {"lateral": pad._lateral.text(), "to_target": pad._remaining.text()}
-        for name, text in other_words.items():
+        labels = {"lateral": pad._lateral, "to_target": pad._remaining}
+        for name, label in labels.items():
+            if not label.isVisible():  # it is written again before it is shown
+                continue
+            text = label.text()
             mine, other = _number(panel.text(name)), _number(text)
             if "too deep" in text or "at target" in text:  # told with the sign of too deep
                 other = None if other is None else -other

@@ -7,6 +7,7 @@ from PySide6.QtGui import QImage, QMouseEvent, QPainter, QTransform
 from window_rig import plan
 
 import app.views.structures.book as book_module
+import app.views.structures.panel as panel_module
 from app.exercises.parts import StructurePart
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.structure import Structure, StructureKind, StructureSet
@@ -23,7 +24,7 @@ from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip, Mode
 from app.views.structures.feature import StructuresFeature
 from app.views.structures.layer import StructureLayer, StructureOutline, draw_in
-from app.views.structures.panel import NAME, PATH, StructurePanel
+from app.views.structures.panel import KIND, NAME, PATH, StructurePanel
 from app.views.structures.watch import StructureWatch, words
 
 
@@ -261,6 +262,13 @@ def test_the_needle_is_warned_once_and_again_after_it_went_away(book, volume, mo
     at(1.5)
     watch.set_needle(None)
     assert watch.needle is None
+
+
+def test_a_kind_has_room_for_its_word_in_any_language(book, monkeypatch):
+    names = {kind: "vaisseau sanguin" for kind in StructureKind}
+    monkeypatch.setattr(panel_module, "kind_names", lambda: names)
+    table = StructurePanel(book, StructureWatch(book), Brush()).table
+    assert table.columnWidth(KIND) >= table.cellWidget(0, KIND).sizeHint().width()
 
 
 def test_the_panel_shows_the_path_and_changes_the_book(book, volume):

@@ -92,6 +92,8 @@ class StructureTable(QTableWidget):
         spin = spin_box(0.0, 50.0, 0.0, "", 0.5)
         spin.setToolTip(tr("Warn within so many mm; 0 never"))
         spin.valueChanged.connect(lambda value: self._set_warn(row, value))
+        # As wide as its words are in this language.
+        self.setColumnWidth(KIND, max(self.columnWidth(KIND), box.sizeHint().width()))
         self.setCellWidget(row, KIND, box)
         self.setCellWidget(row, WARN, spin)
         for one in (box, spin):
