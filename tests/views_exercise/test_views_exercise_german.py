@@ -247,4 +247,5 @@ def test_the_three_words_of_the_dial_never_run_into_each_other(qt, words, width)
     metrics = QFontMetrics(font)
     left, middle, right = (metrics.horizontalAdvance(w) for w in apart(words, metrics, width))
     assert max(left, right) < (width - middle) / 2
+    assert "…" not in "".join(apart(words, metrics, width))
     assert apart(words, metrics, 1000) == words

@@ -24,6 +24,7 @@ from app.views.kit.text import literal, tr
 DEAD_ZONE: Final = 0.05
 """Below this share the force laws do nothing; the dial says `off` and shows the zone."""
 
+_REPELS, _GUIDES = "◀▶", "▶◀"
 _FULL: Final = 100
 _HANDLE: Final = 16
 """Width of the slider's handle [px], as the style sheet draws it."""
@@ -168,9 +169,10 @@ class _Scale(QWidget):
 def apart(words: tuple[str, str, str], metrics: QFontMetrics, width: int) -> tuple[str, str, str]:
     """Return words for left, middle and right of a width [px] that do not run into each other.
 
-    Where they would, those at the sides are cut, and end in `…`; the middle one stays.
+    Where they would, the signs of the value above stand at both sides; the middle one stays.
     """
     left, middle, right = words
     room = (width - metrics.horizontalAdvance(middle)) // 2 - metrics.horizontalAdvance(" ")
-    cut = Qt.TextElideMode.ElideRight
-    return metrics.elidedText(left, cut, room), middle, metrics.elidedText(right, cut, room)
+    if all(metrics.horizontalAdvance(word) <= room for word in (left, right)):
+        return words
+    return _REPELS, middle, _GUIDES
