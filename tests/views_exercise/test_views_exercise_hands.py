@@ -28,7 +28,14 @@ from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.hands import chooser
 from app.views.exercise.hands import source as gamepad_module
-from app.views.exercise.hands.feed import HELD, LONGEST, SOFT, SPEED, feed_speed
+from app.views.exercise.hands.feed import (
+    HELD,
+    LONGEST,
+    SOFT,
+    SPEED,
+    FeedButton,
+    feed_speed,
+)
 from app.views.exercise.hands.source import (
     DEAD_ZONE,
     FASTEST,
@@ -173,6 +180,16 @@ def test_the_pens_events_become_no_mouse_events(tablet):
     before = tilts(tablet.bullseye)
     tablet.send(MOVE, (40.0, 0.0))
     assert tilts(tablet.bullseye) == pytest.approx(before)
+
+
+@pytest.mark.parametrize("width", [40, 85, 300])
+def test_a_narrow_button_to_push_shows_its_arrow_and_no_half_word(pad, width):
+    button = FeedButton(pad.pad.feed, True, pad)
+    button.resize(width, 28)
+    button.show()
+    assert cut_texts(button) == []
+    assert button.text() == ("▼" if width < 85 else "▼ push")
+    assert button.accessibleName() == "▼ push"
 
 
 def test_the_speed_rises_from_rest_without_a_step():

@@ -124,6 +124,14 @@ def button(text: str, role: str = "", kind: type[QPushButton] = QPushButton) -> 
     return made
 
 
+def text_room(button: QPushButton) -> int:
+    """Return the width that a button has for its text [px]."""
+    option = QStyleOptionButton()
+    button.initStyleOption(option)
+    element = QStyle.SubElement.SE_PushButtonContents
+    return button.style().subElementRect(element, option, button).width()
+
+
 class FittingButton(QPushButton):
     """A button that never asks for more width than there is.
 
@@ -173,11 +181,7 @@ class FittingButton(QPushButton):
         self._fit()
 
     def _fit(self) -> None:
-        option = QStyleOptionButton()
-        self.initStyleOption(option)
-        element = QStyle.SubElement.SE_PushButtonContents
-        room = self.style().subElementRect(element, option, self).width()
-        metrics = self.fontMetrics()
+        room, metrics = text_room(self), self.fontMetrics()
         without = self._keyless
         forms = (self._whole, with_short_key(self._whole), without)
         fitting = (form for form in forms if metrics.horizontalAdvance(form) <= room)

@@ -13,8 +13,10 @@ from time import monotonic
 from typing import Final
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QPushButton, QSizePolicy, QWidget
 
+from app.views.kit.parts import text_room
 from app.views.kit.text import tr
 
 DEPTH_STEP: Final = 0.001
@@ -113,7 +115,8 @@ class FeedButton(QPushButton):
 
     def __init__(self, feed: Feed, inwards: bool, parent: QWidget) -> None:
         super().__init__(tr("▼ push") if inwards else tr("▲ pull"), parent)
-        self._feed, self._inwards = feed, inwards
+        self._feed, self._inwards, self._brief = feed, inwards, False
+        self.setAccessibleName(self.text())
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the pad keeps its keys
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setToolTip(
@@ -125,10 +128,21 @@ class FeedButton(QPushButton):
         self.released.connect(lambda: feed.release(self))
 
     def set_brief(self, brief: bool) -> None:
-        """Show the arrow alone, beside a narrow bar, or with its word."""
-        words = tr("▼ push") if self._inwards else tr("▲ pull")
-        self.setText(words.split()[0] if brief else words)
-        self.setAccessibleName(words)
+        """Show the arrow alone, beside a narrow bar, or with its word where that has room."""
+        self._brief = brief
+        self._fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show the word or leave it out."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        words = self.accessibleName()
+        fits = self.fontMetrics().horizontalAdvance(words) <= text_room(self)
+        shown = words if fits and not self._brief else words.split()[0]
+        if shown != self.text():
+            self.setText(shown)
 
     def event(self, event: QEvent) -> bool:
         """Let go where no release of the mouse will come."""
