@@ -333,12 +333,12 @@ class AttemptRail(QWidget):
         # As wide without a scroll bar as beside one: an order that is higher where it is narrower
         # would call the bar, and send it away, without end.
         wide = self.width() - self._area.verticalScrollBar().sizeHint().width()
-        self._area.widget().setFixedWidth(wide)
+        self._inner.setFixedWidth(wide)
         self.order.fit()
         self.figures.suit_width(wide - 2 * GRID)
 
     def _lay_out(self) -> None:
-        inner = QWidget(self)
+        self._inner = inner = QWidget(self)
         column = QVBoxLayout(inner)
         column.setContentsMargins(GRID, GRID, GRID, GRID)
         column.setSpacing(GRID)
