@@ -7,12 +7,13 @@ import pytest
 from numpy.testing import assert_allclose
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QAction, QKeyEvent
-from PySide6.QtWidgets import QScrollArea
+from PySide6.QtWidgets import QLabel, QScrollArea
 from test_views_slices import drag, press, wheel
 
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reformat import Frame
 from app.imaging.window import PRESETS, WindowLevel
+from app.views.shell import shortcuts
 from app.views.shell.shortcuts import ShortcutSheet, groups
 from app.views.slices.bindings import (
     OHIF,
@@ -352,6 +353,22 @@ def test_the_sheet_of_keys_fits_a_small_screen(window):
     assert wanted.width() <= 1280
     assert wanted.height() <= 768 - 120
     sheet.reject()
+
+
+def test_a_sheet_of_longer_words_stands_in_one_column(application, monkeypatch):
+    longer = [
+        (heading, [(f"{key} {key}", f"{words} {words}") for key, words in rows])
+        for heading, rows in groups(OHIF)
+    ]
+    monkeypatch.setattr(shortcuts, "groups", lambda *_: longer)
+    sheet = ShortcutSheet(OHIF)
+    page = sheet.findChild(QScrollArea).widget()
+    sheet.show()
+    tables = [part.x() for part in page.findChildren(QLabel) if part.text() in dict(longer)]
+    assert len(tables) == len(longer)
+    assert len(set(tables)) == 1
+    sheet.close()
+    sheet.deleteLater()
 
 
 @pytest.mark.long("journey")

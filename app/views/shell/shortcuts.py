@@ -7,6 +7,7 @@ from typing import Final
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
+    QBoxLayout,
     QDialog,
     QDialogButtonBox,
     QFrame,
@@ -156,8 +157,10 @@ class ShortcutSheet(QDialog):
         layout.addWidget(area)
         layout.addWidget(disclaimer_label(self))
         layout.addWidget(buttons)
-        wanted = sheet.sizeHint() + QSize(_AROUND_PX, 4 * _AROUND_PX)
-        self.resize(wanted.boundedTo(self.screen().availableSize() * 0.95))
+        around, most = QSize(_AROUND_PX, 4 * _AROUND_PX), self.screen().availableSize() * 0.95
+        if (sheet.sizeHint() + around).width() > most.width():  # longer words than English
+            columns.setDirection(QBoxLayout.Direction.TopToBottom)
+        self.resize((sheet.sizeHint() + around).boundedTo(most))
 
 
 def disclaimer_label(parent: QWidget | None = None) -> QLabel:

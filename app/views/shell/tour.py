@@ -110,7 +110,7 @@ class TourVeil(QWidget):
     def _place_bubble(self) -> None:
         """Stand beside the part where there is room, else in its lower middle."""
         gap = theme.MARGIN
-        width = max(theme.px(WIDTH), self._column.minimumSize().width())  # its buttons are whole
+        width = max(theme.px(WIDTH), self.bubble.minimumSizeHint().width())  # whole buttons
         height = self._column.heightForWidth(width)
         size = QSize(width, max(height, self.bubble.sizeHint().height()))
         part, room = self._shown, self.rect().adjusted(gap, gap, -gap, -gap)
