@@ -33,6 +33,7 @@ def register(app: typer.Typer) -> None:
     people.command("add")(add)
     people.command("roster")(roster)
     people.command("pin")(pin)
+    people.command("rename")(rename)
     people.command("erase")(erase)
     people.command("instructor")(set_instructor)
     people.command("remark")(remark)
@@ -131,6 +132,27 @@ def pin(
     instructor(people)
     people.set_pin(pseudonym, new)
     return Answer({"pseudonym": pseudonym}, shown=template("{pseudonym} has a new PIN"))
+
+
+def rename(
+    pseudonym: Pseudonym,
+    new: Annotated[str, typer.Argument(metavar="NEW", help="The pseudonym from now on.")],
+) -> Answer:
+    """Give a student another pseudonym (instructor).
+
+    Attempts stay theirs. What the school's store has is looked through once more at the next
+    exchange: a student of this pseudonym who was left out comes in then.
+    """
+    from app.session.people import People
+    from app.session.school_store.synchronising import read_again
+
+    people = People()
+    instructor(people)
+    before = people.find(pseudonym).pseudonym
+    person = people.rename(pseudonym, new)
+    read_again(people)
+    facts = {"pseudonym": person.pseudonym, "before": before, "key": person.key}
+    return Answer(facts, shown=template("{before} is {pseudonym} from now on"))
 
 
 def erase(

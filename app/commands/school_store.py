@@ -96,6 +96,7 @@ def sync(
     """
     from app.commands.calibrate_parts import with_progress
     from app.session.errors import SessionError
+    from app.session.gathering import told_of
     from app.session.people import People
     from app.session.school_store import place_of_store, synchronise
     from app.session.store import records_folder
@@ -119,6 +120,7 @@ def sync(
         "erased": got.erased,
         "taken_out": done.erased,
         "excess": got.excess,
+        "strangers": got.strangers,
         "unknown": [one._asdict() for one in done.unknown],
         "refused": [*done.refused, *got.different],
     }
@@ -137,15 +139,7 @@ def sync(
         ),
         Each("refused", template("✖ left out: {}")),
     )
-    lines = []
-    if got.excess:
-        lines.append(
-            counted(
-                "{n} attempt is beyond a course's limit at all stations together: marked",
-                "{n} attempts are beyond a course's limit at all stations together: marked",
-                got.excess,
-            )
-        )
+    lines = told_of([got])
     if done.erased:
         lines.append(
             joined(

@@ -11,7 +11,7 @@ from app.commands.doors import instructor
 from app.commands.reader_language import template
 from app.commands.record_options import RecordsFolder
 from app.commands.shown import Each
-from app.core.messages import counted, joined, sentence, sentence_of
+from app.core.messages import joined, sentence, sentence_of
 
 
 def add_to(store: Commands) -> None:
@@ -189,12 +189,13 @@ def gather(
     from app.commands.calibrate_parts import with_progress
     from app.core.errors import AcusError
     from app.core.progress import Cancelled
-    from app.session.gathering import gather_file
+    from app.session.gathering import GatheredFile, gather_file, told_of
     from app.session.people import People
     from app.session.store import records_folder
 
     people, place = People(), records_folder(folder)
     instructor(people)
+    gathered: list[GatheredFile] = []
     taken: list[dict[str, Any]] = []
     refused: list[str] = []
     for number, file in enumerate(files):
@@ -210,6 +211,7 @@ def gather(
         except AcusError as error:
             refused.append(sentence_of(error))
             continue
+        gathered.append(done)
         taken.append(
             {
                 "file": file,
@@ -222,6 +224,7 @@ def gather(
                 "people": done.people,
                 "courses": done.courses,
                 "excess": done.excess,
+                "strangers": done.strangers,
                 "different": list(done.different),
             }
         )
@@ -236,15 +239,8 @@ def gather(
         for line in one["different"]
     ]
     lines += [joined(" ", ("✖", line)) for line in refused]
-    excess = taken[-1]["excess"] if taken else 0
-    if excess:
-        lines.append(
-            counted(
-                "{n} attempt is beyond a course's limit at all stations together: marked",
-                "{n} attempts are beyond a course's limit at all stations together: marked",
-                excess,
-            )
-        )
+    lines += told_of(gathered)
+    excess = gathered[-1].excess if gathered else 0
     facts = {"taken": taken, "refused": refused, "excess": excess}
     yes = not refused and not any(one["different"] for one in taken)
     return Answer(facts, lines, yes=yes, shown=Each("taken", row))

@@ -26,6 +26,14 @@ def name_of_process() -> str:
     return f"{_computer()}-{own}-{_started(own) or 0}-{uuid4().hex}"
 
 
+def hidden(folder: Path) -> list[str]:
+    """Return the names in a folder that begin with a dot; none of one that cannot be read."""
+    try:
+        return [name for name in os.listdir(folder) if name[0] == "."]
+    except OSError:
+        return []
+
+
 def process_has_gone(name: str) -> bool:
     """Return whether a file's name ends in that of a process of this computer that runs no more.
 

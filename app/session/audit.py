@@ -46,6 +46,7 @@ WHAT: Final = (
     "role given",
     "students added",
     "students changed",
+    "student renamed",
     "PIN set",
     "student erased",
     "course saved",

@@ -207,12 +207,14 @@ def progress_board(
     counted = {place: ks[reasons.codes[ks] == 0] for place, ks in members.items()}
     counted = {place: ks for place, ks in counted.items() if len(ks)}
     left = {place: ks[reasons.codes[ks] > 0] for place, ks in members.items()}
-    trends = _trends(some.total, counted)
+    totals = np.nan_to_num(some.total)
+    trends = _trends(totals, counted)
     void = {name: said.void for name, said in remarks.items() if said.void}
     empty = np.empty(0, np.int64)
     cells = {
         place: _cell(
             some,
+            totals,
             counted.get(place, empty),
             Counter(reasons.texts[code] for code in reasons.codes[left.get(place, empty)].tolist()),
             trends.get(place),
@@ -460,6 +462,7 @@ def _largest(groups: NDArray[np.int64]) -> int:
 
 def _cell(
     attempts: Attempts,
+    total: NDArray[np.float64],
     places: NDArray[np.int64],
     left: Counter[str],
     trend: float | None,
@@ -469,7 +472,7 @@ def _cell(
     others, why = left.total(), tuple(sorted(left.items()))
     if not len(places):
         return BoardCell(others=others, why=why, void=void)
-    totals = np.nan_to_num(attempts.total[places])
+    totals = total[places]
     best = int(places[totals.argmax()])
     return BoardCell(
         attempts=len(places),
@@ -501,7 +504,7 @@ def _trends(
             if len(ks) == number or (number == TREND_OF and len(ks) > number)
         }
         if alike:
-            totals = np.nan_to_num(total[np.stack(list(alike.values()))])
+            totals = total[np.stack(list(alike.values()))]
             a, b = np.triu_indices(number, 1)
             slopes = np.median((totals[:, b] - totals[:, a]) / (b - a), axis=1)
             found.update(zip(alike, slopes.tolist(), strict=True))

@@ -39,6 +39,7 @@ from app.session.stations import (
 from app.session.store import settled
 from app.session.taking_in import GatheredFile as GatheredFile
 from app.session.taking_in import OpenedFile, TakingIn
+from app.session.taking_in import told_of as told_of
 
 if TYPE_CHECKING:
     pass

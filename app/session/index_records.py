@@ -40,16 +40,16 @@ def listing(folder: Path) -> Listing:
     """
     found: dict[str, int] = {}
     signed: dict[str, int] = {}
-    end, beside = len(SUFFIX), signature_file(Path("a")).suffix
+    end, beside = SUFFIX[1:], signature_file(Path("a")).suffix[1:]
     try:
         with os.scandir(folder) as entries:
             for entry in entries:
-                name = entry.name
-                if name.endswith(SUFFIX):
+                name, dot, kind = entry.name.rpartition(".")
+                if kind == end and dot:
                     if entry.is_file():
-                        found[name[:-end]] = entry.inode() & _INODE
-                elif name.endswith(beside):
-                    signed[name[: -len(beside)]] = entry.inode() & _INODE
+                        found[name] = entry.inode() & _INODE
+                elif kind == beside and dot:
+                    signed[name] = entry.inode() & _INODE
     except FileNotFoundError:
         return {}
     except OSError as error:

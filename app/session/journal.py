@@ -23,9 +23,9 @@ from types import TracebackType
 from typing import Final
 
 from app.core.descriptors import hold_alone
-from app.core.files import BINARY, remove, replace, step, sweep, sync, write_atomically
+from app.core.files import BINARY, remove, replace, step, sync, write_atomically
 from app.core.messages import sentence
-from app.core.temporary import name_of_process, process_has_gone, tells_processes
+from app.core.temporary import hidden, name_of_process, process_has_gone, tells_processes
 from app.session.errors import SessionError
 
 FOLDER: Final = ".journal"
@@ -222,10 +222,14 @@ class Journal:
         self._fd = self._lock = -1
 
 
-def settle(folder: Path) -> None:
+def settle(folder: Path, names: Sequence[str] | None = None) -> None:
     """Carry out what programs that ended had planned here, and sweep what they left; no raise.
 
     A folder that cannot be written stays as it is.
+
+    Args:
+        folder: that plans are about.
+        names: that `hidden` has just given there; they are read without.
     """
     left: list[Path] = []
     with suppress(OSError):
@@ -237,7 +241,9 @@ def settle(folder: Path) -> None:
         (folder / FOLDER).rmdir()
     if folder not in _swept and not (folder / FOLDER).exists():  # no plan needs what lies there
         _swept.add(folder)
-        sweep(folder)
+        for name in filter(process_has_gone, hidden(folder) if names is None else names):
+            with suppress(OSError):
+                remove(folder / name)
 
 
 def carry_out(steps: Sequence[Sequence[str]]) -> None:

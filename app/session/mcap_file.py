@@ -10,7 +10,7 @@ under its own name is never without its beginning.
 import errno
 import hashlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final, cast
@@ -21,6 +21,7 @@ from app import __version__
 from app.core.descriptors import hold, hold_alone
 from app.core.files import step
 from app.core.messages import sentence
+from app.core.temporary import hidden
 from app.session.blocks import COLUMNS, SLOT_NAMES
 from app.session.errors import RecordingError
 from app.session.header import Attachment, SessionHeader
@@ -270,9 +271,16 @@ def _sync_folder(folder: Path) -> None:
             os.close(handle)
 
 
-def remove_strays(folder: Path) -> None:
-    """Delete what killed programs left of records under temporary names: who lives holds them."""
-    for path in (*folder.glob(".*.mcap.part"), *folder.glob(".*.mcap.reserve")):
+def remove_strays(folder: Path, names: Sequence[str] | None = None) -> None:
+    """Delete what killed programs left of records under temporary names: who lives holds them.
+
+    Args:
+        folder: of the records.
+        names: that `hidden` has just given there; they are read without.
+    """
+    names = hidden(folder) if names is None else names
+    left = [name for name in names if name.endswith((".mcap.part", ".mcap.reserve"))]
+    for path in map(folder.joinpath, left):
         with suppress(OSError):
             fd = os.open(path, os.O_RDONLY)
             try:

@@ -9,6 +9,7 @@ can read these files can replace them.
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import secrets
@@ -32,7 +33,7 @@ from app.session.audit import note
 from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
-from app.session.roster import RosterLine, checked_pin, judged_lines
+from app.session.roster import RosterLine, checked_pin, checked_pseudonym, judged_lines
 from app.session.school_tables import (
     COUNTED,
     EXCESS,
@@ -299,12 +300,7 @@ class People:
         if report.errors:
             raise PeopleError(report.errors[0])
         if report.updated:
-            raise PeopleError(
-                sentence(
-                    "{line_pseudonym!r} is taken: choose another pseudonym",
-                    line_pseudonym=line.pseudonym,
-                )
-            )
+            raise PeopleError(_taken(line.pseudonym))
         return self.find(line.pseudonym), report.pins.get(line.pseudonym, line.pin)
 
     def take_roster(self, lines: Sequence[RosterLine], partly: bool = False) -> RosterReport:
@@ -382,6 +378,28 @@ class People:
             connection.execute(update(table).where(table.c.key == person.key).values(pin=hashed))
             connection.execute(_failures().delete().where(_failures().c.account == person.key))
         note("PIN set", [person.key], self.folder)
+
+    def rename(self, pseudonym: str, new: str) -> Person:
+        """Give a student another pseudonym; attempts stay theirs, for records hold a key.
+
+        Raises:
+            PeopleError: if there is no such student, or the new one is taken or cannot be one.
+        """
+        from sqlalchemy import select, update
+
+        person, wanted = self.find(pseudonym), checked_pseudonym(new)
+        persons = _tables().tables["persons"]
+        with self.database.write() as connection:
+            rows = connection.execute(select(persons.c.key, persons.c.pseudonym))
+            if any(
+                one.pseudonym.casefold() == wanted.casefold() and one.key != person.key
+                for one in rows
+            ):
+                raise PeopleError(_taken(wanted))
+            named = update(persons).where(persons.c.key == person.key)
+            connection.execute(named.values(pseudonym=wanted))
+        note("student renamed", [person.key], self.folder)
+        return self.find(wanted)
 
     def sign_in(self, pseudonym: str, pin: str) -> Person:
         """Let a student in.
@@ -654,6 +672,14 @@ class People:
                     journal.plan_with(self.folder / PEOPLE, stamp, steps, otherwise)
                     planned = True
         except OSError as error:
+            if error.errno in (errno.ENOSPC, errno.EDQUOT):
+                raise PeopleError(
+                    sentence(
+                        "there is no room left for people and records ({folder}): make some, then "
+                        "try again; nothing was changed",
+                        folder=self.folder,
+                    )
+                ) from error
             raise PeopleError(
                 sentence(
                     "cannot write in {folder}: {error_strerror}; nothing was changed",
@@ -669,6 +695,12 @@ class People:
 def people_folder() -> Path:
     """Return the folder of everything about people: `people` in the user's data folder."""
     return paths.data() / "people"
+
+
+def _taken(pseudonym: str) -> str:
+    return sentence(
+        "{line_pseudonym!r} is taken: choose another pseudonym", line_pseudonym=pseudonym
+    )
 
 
 def _checked_password(password: str) -> None:

@@ -9,6 +9,7 @@ from typing import Final
 
 from app.core.messages import sentence
 from app.core.paths import sessions
+from app.core.temporary import hidden
 from app.session.admission import Admission, admissions, with_admission
 from app.session.audit import note
 from app.session.calibration_flag import CalibrationFlags
@@ -226,10 +227,11 @@ def beside(path: Path) -> tuple[Path, ...]:
 def settled(folder: Path) -> Path:
     """Return a folder of records after whatever killed programs left there was put in order."""
     settle(people_folder())  # first: a restore is planned there
-    settle(folder)
-    if folder not in _cleared:
+    names = hidden(folder) if folder not in _cleared else None  # once for both: it may be long
+    settle(folder, names)
+    if names is not None:
         _cleared.add(folder)
-        remove_strays(folder)
+        remove_strays(folder, names)
     return folder
 
 

@@ -9,7 +9,7 @@ import hashlib
 import json
 import os
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -17,7 +17,7 @@ from uuid import uuid4
 
 from app.core import paths
 from app.core.files import LARGEST_FILE
-from app.core.messages import sentence
+from app.core.messages import Sentence, counted, sentence
 from app.core.progress import Progress
 from app.session.accounts import owner_of
 from app.session.backup_file import ArchiveError, unpack
@@ -25,6 +25,7 @@ from app.session.header import TRASH
 from app.session.journal import Step, move, removal
 from app.session.limits import hold_limits
 from app.session.people import People, Person, tables
+from app.session.roster import looks_like_a_key
 from app.session.school_file import SchoolManifest
 from app.session.school_tables import COUNTED, TOMBSTONES, ErasedKeys
 from app.session.sidecar import file_digest, read_kept, sidecar, summary_text
@@ -69,6 +70,7 @@ class GatheredFile:
         people: students who are new here.
         courses: that are new here.
         excess: attempts beyond a course's limit, all files together.
+        strangers: of the attempts that were missing, those of students who are not known here.
         different: a line for each thing that is another one here and was left out.
     """
 
@@ -81,7 +83,34 @@ class GatheredFile:
     people: int = 0
     courses: int = 0
     excess: int = 0
+    strangers: int = 0
     different: tuple[str, ...] = ()
+
+
+def told_of(files: Sequence[GatheredFile]) -> list[Sentence]:
+    """Return a line for each thing that somebody has to know of what came, all files together."""
+    strangers = sum(one.strangers for one in files)
+    excess = files[-1].excess if files else 0
+    lines: list[Sentence] = []
+    if strangers:
+        lines.append(
+            counted(
+                "{n} attempt is of a student who is not known here and counts for nobody: take the "
+                "course of their station in too (`acus store station` there)",
+                "{n} attempts are of students who are not known here and count for nobody: take "
+                "the course of their station in too (`acus store station` there)",
+                strangers,
+            )
+        )
+    if excess:
+        lines.append(
+            counted(
+                "{n} attempt is beyond a course's limit at all stations together: marked",
+                "{n} attempts are beyond a course's limit at all stations together: marked",
+                excess,
+            )
+        )
+    return lines
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +153,7 @@ class TakingIn:
     counted: dict[str, CountedAttempt] = field(default_factory=dict)
     steps: list[Step] = field(default_factory=list)
     courses: list[Path] = field(default_factory=list)
+    brought: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         """Begin with the first file."""
@@ -164,6 +194,7 @@ class TakingIn:
             remarks = (remark for one in self.files for remark in one.manifest.remarks)
             most = max((one.counter for one in remarks), default=0)
             put_setting(connection, COUNTER, str(max(counter_of(connection), most)))
+            self.done = replace(self.done, strangers=self._strangers(here))
             self._erase(connection, set(here))
             gone = self.erased_keys
             after = {one: name for one, name in after.items() if not gone.of(owner_of(one))}
@@ -220,7 +251,13 @@ class TakingIn:
         places = (target, self.folder / TRASH / target.name)
         here = next((path for path in places if path.exists()), None)
         if here is not None and file_digest(here) != attempt.record:
-            self.say(sentence("the attempt {name} is another record here", name=attempt.attempt))
+            self.say(
+                sentence(
+                    "the attempt {name} is another record here: the one here was kept, ask its "
+                    "station which is right",
+                    name=attempt.attempt,
+                )
+            )
             return
         if attempt.attempt in self.counted:  # another file has just brought it
             here = here or target
@@ -233,6 +270,7 @@ class TakingIn:
             self.steps.append(move(stage / place.name, place))
         shown = self._check_signature(stage / target.name, attempt)
         self._stage_summary(stage / target.name, attempt.record, shown)
+        self.brought.append(attempt.attempt)
         self.done = replace(self.done, attempts=self.done.attempts + 1)
 
     def _unpack(self, name: str, target: Path) -> None:
@@ -300,7 +338,13 @@ class TakingIn:
         present = "" if here is None else file_digest(here)
         if present and (here != target or present == digest or present not in self.giving_way):
             if present != digest:
-                self.say(sentence("{name} is another file here", name=name))
+                self.say(
+                    sentence(
+                        "{name} is another file here: the one here was kept; to have both let one "
+                        "station give its own another id",
+                        name=name,
+                    )
+                )
             return
         self._unpack(name, stage / name)
         self.steps.append(move(stage / name, target))
@@ -361,7 +405,8 @@ class TakingIn:
             if one.key not in known and holder != one.key:
                 self.say(
                     sentence(
-                        "{pseudonym} is somebody else here: give one of them another pseudonym",
+                        "{pseudonym} is somebody else here: give one of them another pseudonym "
+                        "(`acus people rename`), then take this in again",
                         pseudonym=one.pseudonym,
                     )
                 )
@@ -376,6 +421,12 @@ class TakingIn:
                 connection.execute(put.on_conflict_do_nothing())
             if one.name:
                 listed.setdefault(one.key, one.name)
+
+    def _strangers(self, known: Mapping[str, Person]) -> int:
+        """Return how many of the attempts that come are of students whom nobody here knows."""
+        whose = [self.counted[name].student for name in self.brought]
+        keys = [one for one in whose if looks_like_a_key(one) and not self.erased_keys.of(one)]
+        return sum(one not in known for one in keys)
 
     def _erase(self, connection: Connection, known: set[str]) -> None:
         """Erase who has a tombstone, with records where these were not kept as nobody's."""

@@ -6680,6 +6680,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">{pseudonym!r} ist hier kein Teilnehmer; vorhanden: {some}</translation>
         </message>
         <message>
+            <source>there is no room left for people and records ({folder}): make some, then try again; nothing was changed</source>
+            <translation type="unfinished">für Personen und Aufzeichnungen ist kein Platz mehr ({folder}): Schaffen Sie welchen und versuchen Sie es wieder; nichts wurde geändert</translation>
+        </message>
+        <message>
             <source>{line_pseudonym!r} is taken: choose another pseudonym</source>
             <translation type="unfinished">{line_pseudonym!r} ist vergeben: Wählen Sie ein anderes Pseudonym</translation>
         </message>
@@ -15885,6 +15889,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">{pseudonym} hat eine neue PIN</translation>
         </message>
         <message>
+            <source>{before} is {pseudonym} from now on</source>
+            <translation type="unfinished">{before} heißt von jetzt an {pseudonym}</translation>
+        </message>
+        <message>
             <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
             <translation type="unfinished">{pseudonym} wurde gelöscht; gelöschte Aufzeichnungen: {records}, als niemandes behalten: {anonymous}</translation>
         </message>
@@ -20312,6 +20320,13 @@ haply: ist ein Haply Inverse3</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts are of students who are not known here and count for nobody: take the course of their station in too (`acus store station` there)</source>
+            <translation type="unfinished">
+                <numerusform>{n} Versuch ist von einem Studierenden, den hier niemand kennt, und zählt für niemanden: Nehmen Sie auch den Kurs seiner Station auf (dort `acus store station`)</numerusform>
+                <numerusform>{n} Versuche sind von Studierenden, die hier niemand kennt, und zählen für niemanden: Nehmen Sie auch den Kurs ihrer Station auf (dort `acus store station`)</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts brought back</source>
             <translation type="unfinished">
                 <numerusform>{n} Versuch zurückgeholt</numerusform>
@@ -21640,24 +21655,24 @@ haply: ist ein Haply Inverse3</translation>
             <translation type="unfinished">{source} lässt sich nicht aufnehmen: {reason} ({place})</translation>
         </message>
         <message>
-            <source>the attempt {name} is another record here</source>
-            <translation type="unfinished">der Versuch {name} ist hier eine andere Aufzeichnung</translation>
+            <source>the attempt {name} is another record here: the one here was kept, ask its station which is right</source>
+            <translation type="unfinished">der Versuch {name} ist hier eine andere Aufzeichnung: Die hiesige blieb; fragen Sie seine Station, welche richtig ist</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
             <translation type="unfinished">{source} ist gefälscht: {name} ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
         </message>
         <message>
-            <source>{name} is another file here</source>
-            <translation type="unfinished">{name} ist hier eine andere Datei</translation>
+            <source>{name} is another file here: the one here was kept; to have both let one station give its own another id</source>
+            <translation type="unfinished">{name} ist hier eine andere Datei: Die hiesige blieb; für beide gibt eine Station der ihren eine andere Kennung</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is somebody else here: give one of them another pseudonym (`acus people rename`), then take this in again</source>
+            <translation type="unfinished">{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym (`acus people rename`) und nehmen Sie dies noch einmal auf</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
             <translation type="unfinished">{source} ist gefälscht: Eine Bemerkung darin ist nicht von der Station {station} signiert; erbitten Sie die Datei dort</translation>
-        </message>
-        <message>
-            <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished">{pseudonym} ist hier jemand anderes: Geben Sie einem von beiden ein anderes Pseudonym</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
@@ -21896,8 +21911,8 @@ haply: ist ein Haply Inverse3</translation>
             <translation type="unfinished">{name} ist kein Speicher einer Schule oder ein beschädigter: die URL einer leeren Datenbank angeben oder ihn aus seiner Sicherung zurückholen</translation>
         </message>
         <message>
-            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
-            <translation type="unfinished">der Speicher der Schule {name} antwortet nicht: diese Station macht weiter und versucht es wieder ({reason})</translation>
+            <source>the school's store {name} does not answer: nothing is lost, this station goes on and tries again; if it stays so, its administrator starts it ({reason})</source>
+            <translation type="unfinished">der Speicher der Schule {name} antwortet nicht: nichts ist verloren, diese Station macht weiter und versucht es wieder; bleibt es so, startet ihn seine Verwaltung ({reason})</translation>
         </message>
         <message>
             <source>{url} is no place for objects: {reason}</source>
@@ -21914,6 +21929,10 @@ haply: ist ein Haply Inverse3</translation>
         <message>
             <source>it does not know this key: give that of its administrator</source>
             <translation type="unfinished">er kennt diesen Schlüssel nicht: den des Administrators angeben</translation>
+        </message>
+        <message>
+            <source>they have no room left: their administrator makes some; nothing is lost</source>
+            <translation type="unfinished">sie haben keinen Platz mehr: Ihre Verwaltung schafft welchen; nichts ist verloren</translation>
         </message>
         <message>
             <source>it takes too long to answer</source>

@@ -6680,6 +6680,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">{pseudonym!r} n’est pas un étudiant d’ici ; il existe : {some}</translation>
         </message>
         <message>
+            <source>there is no room left for people and records ({folder}): make some, then try again; nothing was changed</source>
+            <translation type="unfinished">il n’y a plus de place pour les personnes et les enregistrements ({folder}) : libérez-en, puis réessayez ; rien n’a été modifié</translation>
+        </message>
+        <message>
             <source>{line_pseudonym!r} is taken: choose another pseudonym</source>
             <translation type="unfinished">{line_pseudonym!r} est déjà pris : choisissez un autre pseudonyme</translation>
         </message>
@@ -15885,6 +15889,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">{pseudonym} a un nouveau code PIN</translation>
         </message>
         <message>
+            <source>{before} is {pseudonym} from now on</source>
+            <translation type="unfinished">{before} s’appelle désormais {pseudonym}</translation>
+        </message>
+        <message>
             <source>{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}</source>
             <translation type="unfinished">{pseudonym} a été effacé ; enregistrements supprimés : {records}, conservés sans propriétaire : {anonymous}</translation>
         </message>
@@ -20312,6 +20320,13 @@ haply: est un Haply Inverse3</translation>
             </translation>
         </message>
         <message numerus="yes">
+            <source>{n} attempts are of students who are not known here and count for nobody: take the course of their station in too (`acus store station` there)</source>
+            <translation type="unfinished">
+                <numerusform>{n} essai est d’un étudiant inconnu ici et ne compte pour personne : reprenez aussi le cours de son poste (là-bas `acus store station`)</numerusform>
+                <numerusform>{n} essais sont d’étudiants inconnus ici et ne comptent pour personne : reprenez aussi le cours de leur poste (là-bas `acus store station`)</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
             <source>{n} attempts brought back</source>
             <translation type="unfinished">
                 <numerusform>{n} tentative rétablie</numerusform>
@@ -21640,24 +21655,24 @@ haply: est un Haply Inverse3</translation>
             <translation type="unfinished">impossible de prendre {source} : {reason} ({place})</translation>
         </message>
         <message>
-            <source>the attempt {name} is another record here</source>
-            <translation type="unfinished">l’essai {name} est ici un autre enregistrement</translation>
+            <source>the attempt {name} is another record here: the one here was kept, ask its station which is right</source>
+            <translation type="unfinished">l’essai {name} est ici un autre enregistrement : celui d’ici a été gardé ; demandez à son poste lequel est juste</translation>
         </message>
         <message>
             <source>{source} is forged: {name} is not signed by the station {station}; ask there for the file</source>
             <translation type="unfinished">{source} est falsifié : {name} n’est pas signé par le poste {station} ; demandez-y le fichier</translation>
         </message>
         <message>
-            <source>{name} is another file here</source>
-            <translation type="unfinished">{name} est ici un autre fichier</translation>
+            <source>{name} is another file here: the one here was kept; to have both let one station give its own another id</source>
+            <translation type="unfinished">{name} est ici un autre fichier : celui d’ici a été gardé ; pour avoir les deux, qu’un poste donne au sien un autre identifiant</translation>
+        </message>
+        <message>
+            <source>{pseudonym} is somebody else here: give one of them another pseudonym (`acus people rename`), then take this in again</source>
+            <translation type="unfinished">{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme (`acus people rename`), puis reprenez ceci</translation>
         </message>
         <message>
             <source>{source} is forged: a remark in it is not signed by the station {station}; ask there for the file</source>
             <translation type="unfinished">{source} est falsifié : une remarque n’y est pas signée par le poste {station} ; demandez-y le fichier</translation>
-        </message>
-        <message>
-            <source>{pseudonym} is somebody else here: give one of them another pseudonym</source>
-            <translation type="unfinished">{pseudonym} est ici quelqu’un d’autre : donnez à l’un des deux un autre pseudonyme</translation>
         </message>
         <message>
             <source>{source} is damaged at {name}: fetch it anew from its station</source>
@@ -21896,8 +21911,8 @@ haply: est un Haply Inverse3</translation>
             <translation type="unfinished">{name} n’est pas la base d’une école, ou elle est endommagée : donnez l’URL d’une base vide, ou rétablissez-la depuis sa sauvegarde</translation>
         </message>
         <message>
-            <source>the school's store {name} does not answer: this station goes on and tries again ({reason})</source>
-            <translation type="unfinished">la base de l’école {name} ne répond pas : ce poste continue et réessaie ({reason})</translation>
+            <source>the school's store {name} does not answer: nothing is lost, this station goes on and tries again; if it stays so, its administrator starts it ({reason})</source>
+            <translation type="unfinished">la base de l’école {name} ne répond pas : rien n’est perdu, ce poste continue et réessaie ; si cela dure, son administrateur la démarre ({reason})</translation>
         </message>
         <message>
             <source>{url} is no place for objects: {reason}</source>
@@ -21914,6 +21929,10 @@ haply: est un Haply Inverse3</translation>
         <message>
             <source>it does not know this key: give that of its administrator</source>
             <translation type="unfinished">il ne connaît pas cette clé : donnez celle de son administrateur</translation>
+        </message>
+        <message>
+            <source>they have no room left: their administrator makes some; nothing is lost</source>
+            <translation type="unfinished">ils n’ont plus de place : leur administrateur en libère ; rien n’est perdu</translation>
         </message>
         <message>
             <source>it takes too long to answer</source>

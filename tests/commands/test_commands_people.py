@@ -129,6 +129,9 @@ def test_what_changes_people_or_deletes_needs_the_instructor(acus, monkeypatch, 
 def test_the_instructor_deletes_restores_remarks_and_erases(acus, monkeypatch, tmp_path):
     added = acus("people", "add", "Ada", "--name", "Lovelace", "--pin", "1843")
     acus("people", "pin", "Ada", "7777")
+    assert acus("people", "rename", "ada", "Ida")["before"] == "Ada"
+    renamed = acus("people", "rename", "Ida", "Ada")
+    assert renamed == {"pseudonym": "Ada", "before": "Ida", "key": added["key"]}
     attempts(added["key"], added["key"])
     People().set_instructor("correct horse")
     monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")

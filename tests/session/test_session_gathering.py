@@ -282,7 +282,8 @@ def test_the_same_id_with_another_record_stays_and_is_named(school, tmp_path: Pa
         (two.folder / f"{mine}{ending}").rename(two.folder / f"{name}{ending}")
     before = (two.folder / f"{name}.mcap").read_bytes()
     done = gather_file(results(one, tmp_path / "a"), *at(two), trust=True)
-    assert done.different == (f"the attempt {name} is another record here",)
+    (line,) = done.different
+    assert line.startswith(f"the attempt {name} is another record here: the one here was kept")
     assert (two.folder / f"{name}.mcap").read_bytes() == before
 
 
@@ -300,6 +301,55 @@ def test_two_people_with_one_pseudonym_are_named_and_neither_is_lost(
     assert len(done.different) == 1
     assert "Ada is somebody else here" in done.different[0]
     assert People().find("Ada").key == own
+
+
+def test_who_was_left_out_for_a_pseudonym_comes_in_once_the_one_here_has_another(
+    school, tmp_path: Path
+) -> None:
+    from app.session.roster import RosterLine
+
+    *_, head = school
+    three = SchoolStation(tmp_path / "three", "three", head.patch)
+    three.enter().add(RosterLine("ada", pin="1843"))
+    own = three.enter().find("ada").key
+    (line,) = gather_file(tmp_path / "course", three.folder, trust=True).different
+    assert "(`acus people rename`), then take this in again" in line
+    assert run("people", "rename", "ada", "Ada Three") == 0
+    done = gather_file(tmp_path / "course", three.folder, trust=True)
+    assert (done.people, done.different) == (1, ())
+    assert People().find("Ada Three").key == own
+    assert People().find("Ada").key == student(0)
+
+
+@pytest.mark.long("journey")
+def test_results_of_another_course_are_taken_and_said_to_count_for_nobody_here(
+    school, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from app.session.roster import RosterLine
+
+    one, _, head = school
+    for number in range(2):
+        one.record(student(number))
+    results(one, tmp_path / "a")
+    other = SchoolStation(tmp_path / "other", "other", head.patch)
+    other.enter().add(RosterLine("Zoe"))
+    assert run("store", "gather", str(tmp_path / "a"), "--folder", str(other.folder)) == 3
+    refused = capsys.readouterr().out
+    assert "✖" in refused
+    assert "`acus store stations` there, then gather it with --trust" in refused
+    assert not records(other.folder)
+    place = ["--trust", "--folder", str(other.folder)]
+    assert run("store", "gather", str(tmp_path / "a"), *place) == 0
+    said = capsys.readouterr().out
+    assert "A: 2 attempts added" in said
+    assert "2 attempts are of students who are not known here and count for nobody" in said
+    assert "take the course of their station in too" in said
+    assert not board_of(other.folder, People())[0].counted
+    assert run("store", "gather", str(tmp_path / "course"), *place) == 0
+    assert run("store", "gather", str(tmp_path / "a"), *place) == 0
+    assert "count for nobody" not in capsys.readouterr().out
+    board = board_of(other.folder, People())[0]
+    assert [board.cells[student(k), "liver-01"].attempts for k in range(2)] == [1, 1]
 
 
 @pytest.mark.long("journey")

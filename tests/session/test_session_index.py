@@ -11,8 +11,10 @@ import stat
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import pytest
 from cryptography.hazmat.primitives.ciphers import Cipher
@@ -26,6 +28,7 @@ from app.session.board import progress_board
 from app.session.course import CourseItem
 from app.session.database import DatabaseError
 from app.session.index import INDEX, Index
+from app.session.index_records import listing
 from app.session.people import Person
 from app.session.recording import read_recording
 from app.session.sidecar import file_digest, read_kept, sidecar, write_summary
@@ -217,6 +220,50 @@ def test_a_row_gives_the_summary_that_the_list_gives(folder: Path) -> None:
 
 
 @pytest.mark.long("journey")
+def test_a_first_look_reads_the_names_of_a_folder_twice(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A program that knows nothing went through it four times: 300 000 names of a large school."""
+    Index(folder).refresh()
+    for known in ("journal._swept", "store._cleared"):
+        monkeypatch.setattr(f"app.session.{known}", set())
+    looks: list[str] = []
+
+    def counted(name: str, real: Callable[[Any], Any]) -> Callable[[Any], Any]:
+        def look(place: Any) -> Any:
+            looks.extend([name] if Path(place) == folder else [])
+            return real(place)
+
+        return look
+
+    for name in ("listdir", "scandir"):
+        monkeypatch.setattr(os, name, counted(name, getattr(os, name)))
+    Index(folder).refresh()
+    assert looks == ["listdir", "scandir"]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_listing_is_what_each_name_says(tmp_path: Path, seed: int) -> None:
+    """Against names and inodes asked for one by one."""
+    rng = random.Random(seed)
+    ends = (".mcap", ".sig", ".json", "", ".mcap.part", "mcap", ".sig.sig", ".MCAP")
+    for number in range(60):
+        name = f"{rng.choice(('', '.', 'a.b'))}{rng.randrange(9)}{rng.choice(ends)}"
+        if rng.random() < 0.1:
+            (tmp_path / f"{name}-{number}.mcap").mkdir()
+        elif name != ".":
+            (tmp_path / name).touch()
+    for name in ("mcap", "sig", ".mcap"):
+        (tmp_path / name).touch()
+    inode = {path.name: path.stat().st_ino for path in tmp_path.iterdir() if path.is_file()}
+    wanted = {
+        name.removesuffix(".mcap"): (number, inode.get(f"{name.removesuffix('.mcap')}.sig", 0))
+        for name, number in inode.items()
+        if name.endswith(".mcap")
+    }
+    assert listing(tmp_path) == wanted
+
+
 def test_an_index_that_is_no_database_is_said_and_made_anew(folder: Path) -> None:
     Index(folder).refresh()
     for file in folder.glob(f"{INDEX}*"):

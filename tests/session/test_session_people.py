@@ -330,6 +330,22 @@ def test_a_roster_of_excel_in_utf_16_is_read() -> None:
     assert (errors, lines) == ([], [RosterLine("Ada", "Élève")])
 
 
+def test_a_student_who_is_renamed_keeps_key_groups_and_pin(people: People) -> None:
+    key = people.add(RosterLine("Ada", pin="1843", groups=("A",)))[0].key
+    people.add(RosterLine("Bob"))
+    renamed = people.rename("ada", " Ada North ")
+    assert (renamed.key, renamed.pseudonym, renamed.groups) == (key, "Ada North", ("A",))
+    assert people.sign_in("ada north", "1843").key == key
+    assert people.rename("Ada North", "ADA NORTH").pseudonym == "ADA NORTH"
+    with pytest.raises(PeopleError, match="'bob' is taken: choose another pseudonym"):
+        people.rename("Ada North", "bob")
+    with pytest.raises(PeopleError, match="cannot be a pseudonym"):
+        people.rename("Ada North", "../ada")
+    with pytest.raises(PeopleError, match="'Ada' is no student here; there: ADA NORTH, Bob"):
+        people.rename("Ada", "Cleo")
+    assert [one.pseudonym for one in people.everybody()] == ["ADA NORTH", "Bob"]
+
+
 def test_remarks_add_up(people: People) -> None:
     people.remark("a1", comment="steadier")
     people.remark("a1", void="camera fell over")

@@ -16,6 +16,7 @@ from app.session import audit
 from app.session.course import Course, CourseItem, courses
 from app.session.erasing import erase_person
 from app.session.people import People
+from app.session.roster import RosterLine
 from app.session.school_store import (
     SchoolStore,
     StoreError,
@@ -27,6 +28,7 @@ from app.session.school_store import (
     require_password,
     synchronise,
 )
+from app.session.school_store.synchronising import read_again
 from app.session.school_store.tables import metadata
 
 
@@ -279,6 +281,26 @@ def test_a_course_that_its_station_changed_takes_the_place_of_the_one_that_came_
     result = meet(south, place)
     assert [one.title for one in courses(People().folder)[0]] == ["Southern autumn"]
     assert any("autumn.yaml" in line for line in result.gathered.different)
+
+
+@pytest.mark.long("journey")
+def test_a_student_left_out_for_a_pseudonym_comes_from_the_store_after_renaming(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: StorePlace
+) -> None:
+    """The course lay in the store already: nobody has to give it anew."""
+    head, north, _ = school(tmp_path, monkeypatch)
+    own = north.enter().add(RosterLine("ADA"))[0].key
+    meet(head, place)
+    first = meet(north, place)
+    assert ["rename" in line for line in first.gathered.different] == [True]
+    assert not meet(north, place).gathered.different  # nothing new lies there
+    people = north.enter()
+    people.rename("ADA", "Ada North")
+    read_again(people)
+    again = meet(north, place)
+    assert (again.gathered.people, again.gathered.different) == (1, ())
+    assert People().find("Ada").key == key_of("Ada")
+    assert People().find("Ada North").key == own
 
 
 @pytest.mark.long("journey")

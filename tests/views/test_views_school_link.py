@@ -2,11 +2,18 @@
 
 import pytest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPlainTextEdit
+from sqlalchemy import event
 from test_views_people import record
 
 from app.session.people import People
 from app.session.roster import RosterLine
-from app.session.school_store import StorePlace, place_of_store, put_place, synchronise
+from app.session.school_store import (
+    SchoolStore,
+    StorePlace,
+    place_of_store,
+    put_place,
+    synchronise,
+)
 from app.session.station import StationKey
 from app.session.stations import fingerprint, set_name
 from app.views.kit.access import ACCESS
@@ -136,6 +143,37 @@ def test_a_store_that_is_away_is_told_with_how_many_attempts_wait(
     assert settle(lambda: board.store.text().startswith("School's store: up to date"))
     assert settle(lambda: feature.dialog is not None)
     feature.dialog.close()
+
+
+@pytest.mark.long("journey")
+def test_a_full_store_is_one_line_on_the_board_and_goes_when_there_is_room(
+    window, feature, settle, tmp_path, monkeypatch
+):
+    folder = feature.context.services.sessions()
+    place = made(StorePlace(f"sqlite:///{tmp_path / 'school.sqlite'}"))
+    put_place(place)
+    for number in range(3):
+        record(folder, f"a{number}", "Ada", 72.0)
+    opened = SchoolStore.open
+
+    def limited(store, make=True):
+        limit = "PRAGMA max_page_count = 8"
+        event.listen(store._engine, "connect", lambda one, _: one.execute(limit))
+        opened(store, make)
+
+    feature.show()
+    board = feature.page.board
+    with monkeypatch.context() as full:
+        full.setattr(SchoolStore, "open", limited)
+        feature.link.quietly()
+        assert settle(lambda: "has no room left: its administrator makes" in board.store.text())
+    assert board.store.text().endswith("3 attempts wait to be sent.")
+    assert "\n" not in board.store.text()
+    assert settle(lambda: feature.link._task is None)
+    feature.link.quietly()
+    assert settle(lambda: board.store.text().startswith("School's store: up to date"))
+    other_station(monkeypatch, tmp_path / "other", place)
+    assert len(list((tmp_path / "other" / "records").glob("a*.mcap"))) == 3
 
 
 @pytest.mark.long("journey")

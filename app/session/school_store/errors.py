@@ -101,8 +101,8 @@ def _error(error: Exception, name: str, seconds: float) -> StoreError:
         )
     return UnreachableStoreError(
         sentence(
-            "the school's store {name} does not answer: this station goes on and tries again "
-            "({reason})",
+            "the school's store {name} does not answer: nothing is lost, this station goes on and "
+            "tries again; if it stays so, its administrator starts it ({reason})",
             name=name,
             reason=str(origin or error).strip().splitlines()[0][:200],
         )

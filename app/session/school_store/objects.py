@@ -134,6 +134,7 @@ def _lost(digest: str) -> str:
 
 _REFUSED: Final = ("InvalidAccessKeyId", "SignatureDoesNotMatch", "AccessDenied", "403", "401")
 _NO_BUCKET: Final = ("NoSuchBucket",)
+_FULL: Final = ("No space left", "Errno 122", "Disk quota")
 _SLOW: Final = ("timed out", "timeout", "TimedOut")
 
 
@@ -144,6 +145,8 @@ def _unreachable(error: Exception) -> UnreachableStoreError:
         why = sentence("there is no such bucket: its administrator makes it")
     elif any(each in text for each in _REFUSED):
         why = sentence("it does not know this key: give that of its administrator")
+    elif any(each in text for each in _FULL):
+        why = sentence("they have no room left: their administrator makes some; nothing is lost")
     elif any(each in text for each in _SLOW):
         why = sentence("it takes too long to answer")
     return UnreachableStoreError(

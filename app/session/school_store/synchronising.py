@@ -172,6 +172,13 @@ def synchronise(
     return at.result
 
 
+def read_again(people: People) -> None:
+    """Let the next meeting look at all that the store has: what was left out may be taken now."""
+    state = SyncState.of(people)
+    if state.place.seq:
+        replace(state, place=ReadPlace()).keep(people)
+
+
 def waiting(people: People, key: StationKey) -> int:
     """Return how many attempts of this station the store does not have yet, as far as is known."""
     with people.database.read() as connection:
@@ -341,7 +348,7 @@ def _together(first: GatheredFile, second: GatheredFile) -> GatheredFile:
         return getattr(first, name) + getattr(second, name)
 
     summed = ("attempts", "present", "remarks", "erased", "left_out", "people", "courses")
-    values: Mapping[str, Any] = {name: both(name) for name in (*summed, "different")}
+    values: Mapping[str, Any] = {name: both(name) for name in (*summed, "strangers", "different")}
     return GatheredFile(excess=second.excess, **values)
 
 

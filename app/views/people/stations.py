@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QMenu, QMessageBox, QPushBut
 
 from app.core.errors import AcusError
 from app.core.progress import Cancelled, Progress
-from app.session.gathering import GatheredFile, gather_file
+from app.session.gathering import GatheredFile, gather_file, told_of
 from app.session.people import People
 from app.session.results_file import WrittenFile, write_course, write_results
 from app.session.school_file import UnknownStationError
@@ -273,15 +273,7 @@ def summary_words(gathered: Gathered) -> str:
         more = ", ".join(words for words, count in counts if count)
         lines += [f"  {more}"] if more else []
         lines += [f"  {tr('left out: {line}', line=line)}" for line in one.different]
-    excess = gathered.taken[-1].excess if gathered.taken else 0
-    if excess:
-        lines.append(
-            tr_n(
-                "{n} attempt is beyond a course's limit at all stations together: marked",
-                "{n} attempts are beyond a course's limit at all stations together: marked",
-                excess,
-            )
-        )
+    lines += [translated(line) for line in told_of(gathered.taken)]
     lines += [translated(error) for error in gathered.refused]
     return "\n".join(lines)
 
