@@ -1,7 +1,9 @@
 """A store that is full, read only or gone in mid-write: one line, and nothing is lost."""
 
+import os
 import pwd
 import signal
+import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -10,7 +12,7 @@ from pathlib import Path
 import pytest
 from postgres_rig import Postgres
 from school_stations import SchoolStation, stored
-from small_disk import owned_by, small_disk
+from small_disk import small_disk
 from test_session_school_store import key_of, made, meet
 
 from app.session.database import lockable
@@ -119,10 +121,14 @@ def test_a_full_store_in_postgresql_says_the_same(
 ) -> None:
     """Its table lies in a tablespace on a small disk, which a server of its own fills for real."""
     place = made(StorePlace(postgres.url()))
-    disk_of = tmp_path / "small"
-    with small_disk(disk_of, 256) as disk:
+    # Beside tmp_path: pytest's own folders are closed to the server's user.
+    with (
+        tempfile.TemporaryDirectory() as open_to_all,
+        small_disk(disk_of := Path(open_to_all) / "small", 256) as disk,
+    ):
+        Path(open_to_all).chmod(0o755)
         owner = pwd.getpwnam("postgres")
-        owned_by(disk_of, owner.pw_uid, owner.pw_gid)
+        os.chown(disk_of, owner.pw_uid, owner.pw_gid)
         ask(postgres, f"CREATE TABLESPACE small LOCATION '{disk_of}'")
         try:
             ask(postgres, "ALTER TABLE packets SET TABLESPACE small")
