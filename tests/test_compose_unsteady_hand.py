@@ -19,9 +19,9 @@ from app.compose.trainer import (
 )
 from app.core import state_vector as sv
 from app.exercises.library import load_exercise
+from app.exercises.parts import TissueSource
 from app.exercises.procedure import BiopsyPart, ChecklistPart, ProcedurePart
 from app.exercises.scene import device_of, placed_plan_of
-from app.exercises.parts import TissueSource
 from app.imaging.field import TissueKind
 from app.session.beginnings import LEAST_OFF, MOST_OFF, Beginnings
 from app.session.errors import ProcedureNotPossibleError

@@ -51,8 +51,8 @@ from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
 from app.session.needle_now import NeedleNow
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
-from app.session.procedure import KIND as PROCEDURE
 from app.session.procedure import CHECKS, MARKED, ProcedureState, Step, ToolInHand, begin_data
+from app.session.procedure import KIND as PROCEDURE
 from app.session.procedure import VERSION as PROCEDURE_VERSION
 from app.session.resting import Resting
 from app.session.result import AttemptResult

@@ -19,6 +19,7 @@ from app.session.snapshot import Snapshot
 from app.session.touching import TargetMarks
 from app.views.exercise.run import ExerciseRun
 from app.views.reading.workspace import WorkspacePage
+from app.views.scene.guides import ABLATION, ablation_guides
 from app.views.slices.zones import ZonesLayer
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -77,7 +78,7 @@ class TargetMotion:
 
 
 class AblationView:
-    """Draws zones, margins and electrodes left in place over the panes of a workspace."""
+    """Draws zones, margins and electrodes left in place over a workspace's panes, and in 3D."""
 
     def __init__(self, workspace: WorkspacePage) -> None:
         self._workspace = workspace
@@ -94,9 +95,12 @@ class AblationView:
                 if pane not in self._layers:
                     self._layers[pane] = ZonesLayer(pane.canvas)
                 self._layers[pane].set_shown(shown)
+            guides = None if shown is None else ablation_guides(shown)
+            self._workspace.scene.set_guides(ABLATION, guides)
 
     def hide(self) -> None:
         """Show nothing."""
         self._drawn = None
+        self._workspace.scene.set_guides(ABLATION, None)
         for layer in self._layers.values():
             layer.set_shown(None)
