@@ -14765,6 +14765,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En pause : l’aiguille oscille dans la main simulée ; l’essai reprend de lui-même.</translation>
         </message>
         <message>
+            <source>Ready: the clock starts when you move, or with this: {step}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Ready: the clock starts when you move. Then: {step}</source>
             <translation type="unfinished">Prêt : le chrono part dès que vous bougez. Ensuite : {step}</translation>
         </message>
@@ -17872,6 +17876,14 @@ haply: est un Haply Inverse3</translation>
         <message>
             <source>The lungs; of the built-in patient all organs.</source>
             <translation type="unfinished">Les poumons ; pour le patient intégré, tous les organes.</translation>
+        </message>
+        <message>
+            <source>Grid, electrodes and zones</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>What the exercise asks for: grid on the skin; electrodes, zones, margins.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Light background</source>
@@ -24634,6 +24646,46 @@ haply: est un Haply Inverse3</translation>
         <message>
             <source>the other side has closed it</source>
             <translation type="unfinished">l’autre côté l’a fermée</translation>
+        </message>
+        <message>
+            <source>grid: 1 at the patient's right, each fifth thick</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>laser: table {mm:.1f} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>least margin {mm:.1f} mm, as planned</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>least margin {mm:.1f} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>small dots: {mm:g} mm of margin or more</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>larger dots: less</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>largest dots: not covered</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>dashed: planned zones; surface: ablated</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>planned zones</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>electrodes in place: {n}</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>

@@ -1,4 +1,4 @@
-"""Grid on the skin, electrodes, zones and margins in 3D: where they are, and only when asked for."""
+"""Grid on the skin, electrodes, zones, margins in 3D: where they are, only when asked for."""
 
 from dataclasses import replace
 
