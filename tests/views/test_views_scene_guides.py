@@ -98,6 +98,8 @@ def test_electrodes_stand_where_they_were_left_and_the_zone_is_what_they_cover(s
     actors = actors_of(stage, ABLATION)
     tips = np.array([one.tip_mm for one in state.ablation.electrodes])
     assert len(tips) == 3
+    colour = actors.tips[0]._actors[0].GetProperty().GetColor()
+    assert min(colour) > 0.9, "white, as on the slices, on a dark background too"
     assert_allclose([place_of(tip)[:3, 3] for tip in actors.tips], tips, atol=0.1)
     for shaft, electrode in zip(actors.shafts, state.ablation.electrodes, strict=True):
         matrix = place_of(shaft)  # of a cylinder along y, one high, about its middle
@@ -140,7 +142,7 @@ def test_a_margins_class_has_a_colour_and_a_size_and_the_least_is_said():
     assert len(found) == 3
     sizes = [one.radius_mm for one in guides.dots]
     assert len(set(sizes)) == len(sizes)
-    assert f"least margin {shown.reached.least_mm:.1f} mm" in guides.legend[0][1]
+    assert f"least {shown.reached.least_mm:.1f} mm" in guides.legend[0][1]
 
 
 def test_each_electrode_appears_when_it_is_left_there():

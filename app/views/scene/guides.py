@@ -21,7 +21,7 @@ from app.session.ablation_shown import AblationShown
 from app.views.kit.text import tr
 from app.views.kit.theme import Mark
 from app.views.scene.words import Entry
-from app.views.slices.zones import BARE, ENOUGH, LITTLE, SHAFT, ZONE, mark_of
+from app.views.slices.zones import BARE, ENOUGH, LITTLE, ZONE, mark_of
 
 WIRE: Final = Mark("#f2c14e", width=1.5)
 LASER: Final = Mark("#e0523f", width=1.5)
@@ -31,7 +31,9 @@ GRID: Final = "grid"
 ABLATION: Final = "ablation"
 """Parts of an exercise that have something to show."""
 
-ELECTRODE: Final = Mark(SHAFT)
+ELECTRODE: Final = Mark("#fdfdfd")
+"""As white as that of the slices, but none of the colours that a theme exchanges for another."""
+
 OUTLINE: Final = Mark(ZONE, width=1.6)
 
 THICK: Final = 2.0
@@ -80,7 +82,7 @@ class Guides:
         dots: margins on the lesion's surface.
         least: where the margin is least, which way is out of the lesion there, how it is marked;
             None for none.
-        legend: says what the colours mean.
+        legend: says what the colours mean, so short that it stays beside the body.
     """
 
     lines: tuple[Line, ...] = ()
@@ -104,14 +106,14 @@ def grid_guides(grid: SkinGrid, table_mm: float | None = None) -> Guides:
         for number in range(1, grid.spec.lines + 1)
         for points in grid.line_mm(number, _STEP_MM)
     ]
-    legend = [_entry(WIRE, tr("grid: 1 at the patient's right, each fifth thick"))]
+    legend = [_entry(WIRE, tr("grid on the skin"))]
     try:
         laser = None if table_mm is None else grid.across_mm(table_mm)
     except AcusError:  # no skin at that table position
         laser = None
     if laser is not None:
         lines.append(Line(laser, LASER))
-        legend.append(_entry(LASER, tr("laser: table {mm:.1f} mm", mm=table_mm)))
+        legend.append(_entry(LASER, tr("laser {mm:.1f} mm", mm=table_mm)))
     return Guides(tuple(lines), legend=tuple(legend))
 
 
@@ -126,24 +128,20 @@ def ablation_guides(shown: AblationShown) -> Guides:
     )
     place = margins.at_mm[margins.least_at]
     least = mark_of(margins.least_mm, wanted)
-    words = (
-        tr("least margin {mm:.1f} mm, as planned", mm=margins.least_mm)
-        if shown.reached is None
-        else tr("least margin {mm:.1f} mm", mm=margins.least_mm)
-    )
     classes = {
-        ENOUGH: tr("small dots: {mm:g} mm of margin or more", mm=wanted),
-        LITTLE: tr("larger dots: less"),
-        BARE: tr("largest dots: not covered"),
+        ENOUGH: tr("margin ≥ {mm:g} mm", mm=wanted),
+        LITTLE: tr("margin less"),
+        BARE: tr("not covered"),
     }
-    zones = tr("dashed: planned zones; surface: ablated") if shown.reached else tr("planned zones")
+    words = tr("least {mm:.1f} mm", mm=margins.least_mm)
+    zones = tr("ablated zones") if shown.reached else tr("planned zones")
     legend = [
         _entry(least, words),
         *(_entry(one.mark, classes[one.mark]) for one in dots),
         _entry(OUTLINE, zones),
     ]
     if count := len(shown.shafts_mm):
-        legend.insert(1, _entry(ELECTRODE, tr("electrodes in place: {n}", n=count)))
+        legend.insert(1, _entry(ELECTRODE, tr("electrodes: {n}", n=count)))
     return Guides(
         tuple(line for zone in shown.planned.zones for line in outlines(zone)),
         shown.shafts_mm,
