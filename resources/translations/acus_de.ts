@@ -14766,7 +14766,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Ready: the clock starts when you move, or with this: {step}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bereit: Die Uhr läuft, sobald Sie sich bewegen, oder hiermit: {step}</translation>
         </message>
         <message>
             <source>Ready: the clock starts when you move. Then: {step}</source>
@@ -17879,11 +17879,11 @@ haply: ist ein Haply Inverse3</translation>
         </message>
         <message>
             <source>Grid, electrodes and zones</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Raster, Elektroden und Zonen</translation>
         </message>
         <message>
             <source>What the exercise asks for: grid on the skin; electrodes, zones, margins.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Was die Übung verlangt: Raster auf der Haut; Elektroden, Zonen, Ränder.</translation>
         </message>
         <message>
             <source>Light background</source>
@@ -24460,8 +24460,36 @@ haply: ist ein Haply Inverse3</translation>
             <translation type="unfinished">eine Ablation der Aufzeichnung ist keine: {numbers}</translation>
         </message>
         <message>
+            <source>grid on the skin</source>
+            <translation type="unfinished">Raster auf der Haut</translation>
+        </message>
+        <message>
+            <source>laser {mm:.1f} mm</source>
+            <translation type="unfinished">Laser {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>margin ≥ {mm:g} mm</source>
+            <translation type="unfinished">Rand ≥ {mm:g} mm</translation>
+        </message>
+        <message>
+            <source>margin less</source>
+            <translation type="unfinished">Rand kleiner</translation>
+        </message>
+        <message>
+            <source>not covered</source>
+            <translation type="unfinished">nicht erfasst</translation>
+        </message>
+        <message>
             <source>least {mm:.1f} mm</source>
             <translation type="unfinished">kleinster {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>ablated zones</source>
+            <translation type="unfinished">Ablationszonen</translation>
+        </message>
+        <message>
+            <source>electrodes: {n}</source>
+            <translation type="unfinished">Elektroden: {n}</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
@@ -24648,44 +24676,8 @@ haply: ist ein Haply Inverse3</translation>
             <translation type="unfinished">die Gegenseite hat sie geschlossen</translation>
         </message>
         <message>
-            <source>grid: 1 at the patient's right, each fifth thick</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>laser: table {mm:.1f} mm</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>least margin {mm:.1f} mm, as planned</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>least margin {mm:.1f} mm</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>small dots: {mm:g} mm of margin or more</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>larger dots: less</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>largest dots: not covered</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>dashed: planned zones; surface: ablated</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
             <source>planned zones</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>electrodes in place: {n}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">geplante Zonen</translation>
         </message>
     </context>
 </TS>

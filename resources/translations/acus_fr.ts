@@ -14766,7 +14766,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Ready: the clock starts when you move, or with this: {step}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Prêt : le temps part quand vous bougez, ou avec ceci : {step}</translation>
         </message>
         <message>
             <source>Ready: the clock starts when you move. Then: {step}</source>
@@ -17879,11 +17879,11 @@ haply: est un Haply Inverse3</translation>
         </message>
         <message>
             <source>Grid, electrodes and zones</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Grille, électrodes et zones</translation>
         </message>
         <message>
             <source>What the exercise asks for: grid on the skin; electrodes, zones, margins.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ce que l'exercice demande : grille sur la peau ; électrodes, zones, marges.</translation>
         </message>
         <message>
             <source>Light background</source>
@@ -24460,8 +24460,36 @@ haply: est un Haply Inverse3</translation>
             <translation type="unfinished">une ablation de l’enregistrement n’en est pas une : {numbers}</translation>
         </message>
         <message>
+            <source>grid on the skin</source>
+            <translation type="unfinished">grille sur la peau</translation>
+        </message>
+        <message>
+            <source>laser {mm:.1f} mm</source>
+            <translation type="unfinished">laser {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>margin ≥ {mm:g} mm</source>
+            <translation type="unfinished">marge ≥ {mm:g} mm</translation>
+        </message>
+        <message>
+            <source>margin less</source>
+            <translation type="unfinished">marge moindre</translation>
+        </message>
+        <message>
+            <source>not covered</source>
+            <translation type="unfinished">non couvert</translation>
+        </message>
+        <message>
             <source>least {mm:.1f} mm</source>
             <translation type="unfinished">minimum {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>ablated zones</source>
+            <translation type="unfinished">zones d'ablation</translation>
+        </message>
+        <message>
+            <source>electrodes: {n}</source>
+            <translation type="unfinished">électrodes : {n}</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
@@ -24648,44 +24676,8 @@ haply: est un Haply Inverse3</translation>
             <translation type="unfinished">l’autre côté l’a fermée</translation>
         </message>
         <message>
-            <source>grid: 1 at the patient's right, each fifth thick</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>laser: table {mm:.1f} mm</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>least margin {mm:.1f} mm, as planned</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>least margin {mm:.1f} mm</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>small dots: {mm:g} mm of margin or more</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>larger dots: less</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>largest dots: not covered</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>dashed: planned zones; surface: ablated</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
             <source>planned zones</source>
-            <translation type="unfinished" />
-        </message>
-        <message>
-            <source>electrodes in place: {n}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">zones prévues</translation>
         </message>
     </context>
 </TS>
