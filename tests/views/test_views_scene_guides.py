@@ -15,7 +15,7 @@ from app.imaging.skin_grid import GridSpec, SkinGrid
 from app.imaging.volume import Volume
 from app.session.ablation_shown import AblationShown
 from app.session.procedure import Step, perform
-from app.views.exercise.grid_scene import GridScene
+from app.views.exercise.target_motion import GridScene
 from app.views.scene.display import Display
 from app.views.scene.guide_actors import union
 from app.views.scene.guides import ABLATION, GRID, LASER, WIRE, ablation_guides, grid_guides

@@ -33,11 +33,10 @@ from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.entry_marking import EntryMarking
-from app.views.exercise.grid_scene import GridScene
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.runs import Runs
 from app.views.exercise.scan_source import ScanSource
-from app.views.exercise.target_motion import AblationView, TargetMotion
+from app.views.exercise.target_motion import AblationView, GridScene, TargetMotion
 from app.views.kit.background import Indicator
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr

@@ -17,7 +17,7 @@ from app.planning.ablation.zone import Zone
 from app.views.kit.theme import Mark
 from app.views.scene.actors import Ball, Cloud, Ring, Rod, SurfaceActor
 from app.views.scene.display import Display, rgb
-from app.views.scene.guides import ELECTRODE, LEAST_RING_MM, Guides, Line, rgb_255
+from app.views.scene.guides import ELECTRODE, LEAST_RING_MM, GuideLine, Guides, rgb_255
 from app.views.scene.mesh import Mesh, isosurface
 from app.views.slices.zones import ZONE
 
@@ -152,5 +152,5 @@ def union(zones: Iterable[Zone]) -> Mesh:
     return isosurface(deepest.reshape(k, j, i), affine, 0.0, _TRIANGLES)
 
 
-def _kind(line: Line) -> tuple[str, float]:
+def _kind(line: GuideLine) -> tuple[str, float]:
     return line.mark.colour, line.mark.width

@@ -50,7 +50,7 @@ _CORNERS: Final = 96  # of an ellipse: every other piece of it is drawn
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Line:
+class GuideLine:
     """A line through points.
 
     Attributes:
@@ -85,7 +85,7 @@ class Guides:
         legend: says what the colours mean, so short that it stays beside the body.
     """
 
-    lines: tuple[Line, ...] = ()
+    lines: tuple[GuideLine, ...] = ()
     shafts_mm: FloatArray | None = None
     zones: tuple[Zone, ...] = ()
     dots: tuple[Dots, ...] = ()
@@ -102,7 +102,7 @@ def grid_guides(grid: SkinGrid, table_mm: float | None = None) -> Guides:
     """
     thick = Mark(WIRE.colour, width=THICK * WIRE.width)
     lines = [
-        Line(points, thick if number % 5 == 0 else WIRE)
+        GuideLine(points, thick if number % 5 == 0 else WIRE)
         for number in range(1, grid.spec.lines + 1)
         for points in grid.line_mm(number, _STEP_MM)
     ]
@@ -112,7 +112,7 @@ def grid_guides(grid: SkinGrid, table_mm: float | None = None) -> Guides:
     except AcusError:  # no skin at that table position
         laser = None
     if laser is not None:
-        lines.append(Line(laser, LASER))
+        lines.append(GuideLine(laser, LASER))
         legend.append(_entry(LASER, tr("laser {mm:.1f} mm", mm=table_mm)))
     return Guides(tuple(lines), legend=tuple(legend))
 
@@ -152,14 +152,14 @@ def ablation_guides(shown: AblationShown) -> Guides:
     )
 
 
-def outlines(zone: Zone) -> list[Line]:
+def outlines(zone: Zone) -> list[GuideLine]:
     """Return dashes of three ellipses about a zone: two along the needle, one across it."""
     first, second = zone.across()
     along = zone.half_long_mm * zone.axis
     first, second = zone.half_short_mm * first, zone.half_short_mm * second
     turns = np.linspace(0.0, 2.0 * np.pi, _CORNERS + 1)
     return [
-        Line(zone.centre_mm + np.cos(pair)[:, None] * a + np.sin(pair)[:, None] * b, OUTLINE)
+        GuideLine(zone.centre_mm + np.cos(pair)[:, None] * a + np.sin(pair)[:, None] * b, OUTLINE)
         for a, b in ((along, first), (along, second), (first, second))
         for pair in (turns[at : at + 2] for at in range(0, _CORNERS, 2))
     ]
