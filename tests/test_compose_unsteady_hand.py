@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import degrees
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -18,15 +19,24 @@ from app.compose.trainer import (
 )
 from app.core import state_vector as sv
 from app.exercises.library import load_exercise
+from app.exercises.parts import TissueSource
+from app.exercises.procedure import BiopsyPart, ChecklistPart, ProcedurePart
 from app.exercises.scene import device_of, placed_plan_of
+from app.imaging.field import TissueKind
 from app.session.beginnings import LEAST_OFF, MOST_OFF, Beginnings
+from app.session.errors import ProcedureNotPossibleError
 from app.session.machine import State
+from app.session.procedure import KIND as PROCEDURE
+from app.session.procedure import Step
 from app.session.recording import read_recording
 from app.session.shown_views import Shown
 from app.session.snapshot import NextSteps, StepKind
 from app.session.trainer import Trainer
+from app.session.verify import verify
 from app.simulation.unsteady import LEVEL_1, LEVEL_5
 from app.simulation.unsteady_hand import NAME
+from tests.field_rig import ball, field_of_shapes
+from tests.layered import layered
 
 MEASURED_TREMOR = (15e-6, 254e-6)
 """RMS of physiological tremor of the hand [m] (PMC3032442)."""
@@ -94,6 +104,70 @@ def test_the_clock_runs_from_the_first_movement_of_the_hand(student: Student) ->
     assert snapshot.state is State.ALIGNING
     assert 0.0 < snapshot.elapsed < 0.15
     assert NextSteps(student.trainer._placed, 2e-3, 2e-3).of(snapshot).kind is not StepKind.MOVE
+
+
+MUSCLE = field_of_shapes(
+    [(TissueKind.MUSCLE, "muscle", ball([0.0, -70.0, 0.0], 50.0))],
+    (-60.0, -120.0, -60.0),
+    (31, 31, 31),
+    4.0,
+)
+"""Where the student's plan leads."""
+
+
+@pytest.fixture
+def asking(tmp_path: Path):
+    """A student whose exercise has a checklist before any needle."""
+    asked = ProcedurePart(biopsy=BiopsyPart(), checklist=ChecklistPart())
+    chosen = layered("first-insertion").model_copy(
+        update={"procedure": asked, "tissue": TissueSource.FIELD}
+    )
+    with patch("virtual_student.layered", lambda _: chosen):
+        made = Student(tmp_path, tissues=MUSCLE)
+    beginnings(made)
+    yield made
+    made.close()
+
+
+def test_what_needs_no_needle_can_be_done_before_the_first_movement_and_begins_the_attempt(
+    asking: Student,
+) -> None:
+    """Seen: while the line said "Then: Ask for consent (J)", J did nothing until the hand moved."""
+    trainer = asking.trainer
+    make_ready(asking)
+    assert trainer.snapshot().takes_steps
+    for refused in (Step.STYLET_OUT, Step.INJECT, Step.PLACE_ELECTRODE):
+        with pytest.raises(ProcedureNotPossibleError):
+            trainer.perform(refused)
+        assert trainer.step(20).ready, "what is refused begins nothing"
+    trainer.perform(Step.CONSENT)
+    snapshot = trainer.step(20)
+    assert snapshot.state is State.ALIGNING
+    assert snapshot.armed
+    assert 0.0 < snapshot.elapsed < 0.05
+    assert snapshot.procedure.checked == (Step.CONSENT,)
+    trainer.perform(Step.COAGULATION)
+    for _ in range(50):
+        snapshot = trainer.step(20)
+    assert snapshot.state is State.ALIGNING, "a hand that has not moved is waited for no more"
+    result = trainer.end()
+    kinds = [(one.kind, one.data.get("step", one.data.get("state"))) for one in result.events]
+    order = [("state", "aligning"), (PROCEDURE, "consent"), (PROCEDURE, "coagulation")]
+    assert [one for one in kinds if one in order] == order
+    recording = read_recording(result.record)
+    assert replay_recording(recording).identical
+    checked = verify(recording)
+    assert checked.changes == (), checked.sentences()
+
+
+def test_before_an_attempt_is_ready_no_step_begins_it(asking: Student) -> None:
+    asking.trainer.begin(hand="mouse")
+    snapshot = asking.trainer.step(20)
+    assert snapshot.state is State.WITHDRAWING
+    assert not snapshot.ready
+    assert not snapshot.takes_steps
+    with pytest.raises(ProcedureNotPossibleError, match="begin an attempt"):
+        asking.trainer.perform(Step.CONSENT)
 
 
 def test_what_leads_the_needle_by_itself_begins_at_once_with_a_steady_hand(

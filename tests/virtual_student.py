@@ -11,6 +11,7 @@ from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.scene import placed_plan_of
+from app.imaging.field.tissue_field import TissueField
 from app.planning.plan import Plan
 from app.session.errors import ControlLockedError
 from app.session.machine import State
@@ -45,13 +46,19 @@ class Student:
     """A trainer in virtual time, cameras that see the marker late and with noise, and a pad."""
 
     def __init__(
-        self, folder: Path, exercise: str = "first-insertion", skill: str | None = None
+        self,
+        folder: Path,
+        exercise: str = "first-insertion",
+        skill: str | None = None,
+        tissues: TissueField | None = None,
     ) -> None:
         chosen = layered(exercise)
         profile = device_of(chosen)
         placed = placed_plan_of(chosen, profile, PLAN if chosen.touch is None else None)
         self.clock = VirtualClock(10.0)
-        setup = TrainerSetup(chosen, placed, skill=skill, sessions=folder, clock=self.clock)
+        setup = TrainerSetup(
+            chosen, placed, skill=skill, sessions=folder, clock=self.clock, tissues=tissues
+        )
         with patch("app.compose.trainer.simulated_on", _never_opened):
             self.rig = build_rig(setup)
         self._random = np.random.default_rng(5)

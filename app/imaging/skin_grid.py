@@ -203,7 +203,50 @@ class SkinGrid:
             made.append(ScanNeedle(corners[0], corners[-1], radius, corners))
         return tuple(made)
 
+    def line_mm(self, line: int, step_mm: float) -> list[FloatArray]:
+        """Return one line on the skin of the CT, in pieces where there is none under it between.
+
+        Args:
+            line: its number, from 1.
+            step_mm: from point to point along the patient.
+
+        Returns:
+            Pieces, each of shape (n, 3) with n ≥ 2, LPS [mm].
+        """
+        low, high = self.range_mm
+        places = np.linspace(low, high, max(2, round((high - low) / step_mm) + 1)).tolist()
+        return self._pieces([GridPlace(z, line) for z in places])
+
+    def across_mm(self, table_mm: float) -> FloatArray | None:
+        """Return the grid's width across the skin at a table position, LPS [mm], shape (n, 3).
+
+        None where there is no skin of the CT.
+        """
+        half = self.spec.spacing_mm / 2
+        places = [
+            GridPlace(table_mm, line, offset)
+            for line in range(1, self.spec.lines + 1)
+            for offset in (-half, 0.0)
+        ]
+        return max(self._pieces(places[1:]), key=len, default=None)
+
     # --- inside -----------------------------------------------------------------------------------
+    def _pieces(self, places: list[GridPlace]) -> list[FloatArray]:
+        """Return the points of places that follow each other, torn where one is not on the CT."""
+        volume, pieces = self._body.volume, list[list[FloatArray]]([[]])
+        for place in places:
+            try:
+                at = self.point(place)
+            except InvalidEntryError:
+                pieces.append([])
+                continue
+            voxel = volume.voxel(at[None])[0]
+            if (voxel < 0.0).any() or (voxel > np.array(volume.size) - 1.0).any():
+                pieces.append([])
+            else:
+                pieces[-1].append(at)
+        return [np.array(piece) for piece in pieces if len(piece) > 1]
+
     def _along(self, line: int) -> float:
         return (line - (self.spec.lines + 1) / 2) * self.spec.spacing_mm
 

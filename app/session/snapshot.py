@@ -20,7 +20,7 @@ from app.planning.off_path import Offset
 from app.planning.placement import PlacedPlan
 from app.session.ablation import AblationState
 from app.session.complications import ComplicationsState
-from app.session.machine import FINAL, State
+from app.session.machine import COUNTING, FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pad.aim import CERTAIN, passes, spread
 from app.session.procedure import ProcedureState, ToolInHand
@@ -122,6 +122,14 @@ class Snapshot:
     pause: PauseCause | None = None
     simulated: bool = False
     out_of_room: float | None = None
+
+    @property
+    def takes_steps(self) -> bool:
+        """Return whether a step of the procedure can be done now: while the attempt counts, and
+        while it waits for its first movement what needs no needle, which begins it.
+        """
+        waits = self.ready and self.procedure is not None and self.procedure.checks_left
+        return self.state in COUNTING or waits
 
     @property
     def aim(self) -> PlacedPlan | None:

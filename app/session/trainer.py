@@ -51,8 +51,8 @@ from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import IN_BODY, AttemptEvent
 from app.session.needle_now import NeedleNow
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
+from app.session.procedure import CHECKS, MARKED, ProcedureState, Step, ToolInHand, begin_data
 from app.session.procedure import KIND as PROCEDURE
-from app.session.procedure import MARKED, ProcedureState, Step, ToolInHand, begin_data
 from app.session.procedure import VERSION as PROCEDURE_VERSION
 from app.session.resting import Resting
 from app.session.result import AttemptResult
@@ -74,7 +74,7 @@ from app.session.ticker import (
 from app.session.touching import KIND as TOUCH
 from app.session.touching import TASK, Touching, begin_words, measured_at, touch_words
 from app.session.withdrawal import KIND as WITHDRAWAL
-from app.session.withdrawal import Start, Withdrawal
+from app.session.withdrawal import OutsideBy, Start, Withdrawal
 from app.tracking.fix import NeedleFix
 
 if TYPE_CHECKING:
@@ -457,6 +457,7 @@ class Trainer:
             seen, happens = self._sources.seen, self._happens
             fallen_mm = None if happens is None else happens.fallen_mm
             require_inside(self._leave, now)
+            self._begin_by(step, now)
             self._procedure = self._running.perform(
                 self._procedure, step, seen, now, self._tissues, throw, notch_deg, fallen_mm
             )
@@ -467,6 +468,18 @@ class Trainer:
             if step is Step.PLACE_ELECTRODE:
                 self._take_aim()
             return self._procedure
+
+    def _begin_by(self, step: Step, now: float) -> None:
+        """Begin an attempt that waits for its first movement by a step that needs no needle."""
+        state = self._procedure
+        if state is None or not (self._running.withdrawing and self._withdrawal.ready):
+            return
+        if step in CHECKS and not state.refusal(step):
+            self._release(self._withdrawal.act(), now)
+
+    def _release(self, known: OutsideBy, now: float) -> None:
+        self._running.release(known, now)
+        self._arming.begin()
 
     def notice(self) -> None:
         """Say that something is wrong with the patient.
@@ -852,8 +865,7 @@ class Trainer:
         if running.withdrawing:
             step = withdrawal.advance(seen.device, seen.pose, seen.time)
             if step.known is not None:
-                running.release(step.known, seen.time)
-                self._arming.begin()
+                self._release(step.known, seen.time)
             return step.failure
         withdrawal.stop()
         return withdrawal.refuted(seen.pose, seen.time) if running.counts else ""

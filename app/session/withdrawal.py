@@ -212,6 +212,15 @@ class Withdrawal:
             aside = hypot(x - self._begins.x, y - self._begins.y)
             self._moved = self._moved or aside > MOVED or abs(depth - WAITS) > MOVED_ALONG
 
+    def act(self) -> OutsideBy:
+        """Hear that the student does what needs no needle: that begins the attempt as moving does.
+
+        Returns:
+            How it is known that the needle is out: it stands ready at its start.
+        """
+        self.stop()
+        return OutsideBy.SIMULATED
+
     def confirm(self) -> None:
         """Take the student's word that the needle is out; counts only where nothing measures it."""
         self._said = self.active and self.asks

@@ -14769,6 +14769,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pause: Die Nadel schwingt in der simulierten Hand; es geht von selbst weiter.</translation>
         </message>
         <message>
+            <source>Ready: the clock starts when you move, or with this: {step}</source>
+            <translation type="unfinished">Bereit: Die Uhr läuft, sobald Sie sich bewegen, oder hiermit: {step}</translation>
+        </message>
+        <message>
             <source>Ready: the clock starts when you move. Then: {step}</source>
             <translation type="unfinished">Bereit: Die Uhr läuft, sobald Sie sich bewegen. Danach: {step}</translation>
         </message>
@@ -17880,6 +17884,14 @@ haply: ist ein Haply Inverse3</translation>
         <message>
             <source>The lungs; of the built-in patient all organs.</source>
             <translation type="unfinished">Die Lungen; beim eingebauten Patienten alle Organe.</translation>
+        </message>
+        <message>
+            <source>Grid, electrodes and zones</source>
+            <translation type="unfinished">Raster, Elektroden und Zonen</translation>
+        </message>
+        <message>
+            <source>What the exercise asks for: grid on the skin; electrodes, zones, margins.</source>
+            <translation type="unfinished">Was die Übung verlangt: Raster auf der Haut; Elektroden, Zonen, Ränder.</translation>
         </message>
         <message>
             <source>Light background</source>
@@ -24467,8 +24479,36 @@ haply: ist ein Haply Inverse3</translation>
             <translation type="unfinished">eine Ablation der Aufzeichnung ist keine: {numbers}</translation>
         </message>
         <message>
+            <source>grid on the skin</source>
+            <translation type="unfinished">Raster auf der Haut</translation>
+        </message>
+        <message>
+            <source>laser {mm:.1f} mm</source>
+            <translation type="unfinished">Laser {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>margin ≥ {mm:g} mm</source>
+            <translation type="unfinished">Rand ≥ {mm:g} mm</translation>
+        </message>
+        <message>
+            <source>margin less</source>
+            <translation type="unfinished">Rand kleiner</translation>
+        </message>
+        <message>
+            <source>not covered</source>
+            <translation type="unfinished">nicht erfasst</translation>
+        </message>
+        <message>
             <source>least {mm:.1f} mm</source>
             <translation type="unfinished">kleinster {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>ablated zones</source>
+            <translation type="unfinished">Ablationszonen</translation>
+        </message>
+        <message>
+            <source>electrodes: {n}</source>
+            <translation type="unfinished">Elektroden: {n}</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
@@ -24653,6 +24693,10 @@ haply: ist ein Haply Inverse3</translation>
         <message>
             <source>the other side has closed it</source>
             <translation type="unfinished">die Gegenseite hat sie geschlossen</translation>
+        </message>
+        <message>
+            <source>planned zones</source>
+            <translation type="unfinished">geplante Zonen</translation>
         </message>
     </context>
 </TS>

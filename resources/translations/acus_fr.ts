@@ -14769,6 +14769,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En pause : l’aiguille oscille dans la main simulée ; l’essai reprend de lui-même.</translation>
         </message>
         <message>
+            <source>Ready: the clock starts when you move, or with this: {step}</source>
+            <translation type="unfinished">Prêt : le temps part quand vous bougez, ou avec ceci : {step}</translation>
+        </message>
+        <message>
             <source>Ready: the clock starts when you move. Then: {step}</source>
             <translation type="unfinished">Prêt : le chrono part dès que vous bougez. Ensuite : {step}</translation>
         </message>
@@ -17880,6 +17884,14 @@ haply: est un Haply Inverse3</translation>
         <message>
             <source>The lungs; of the built-in patient all organs.</source>
             <translation type="unfinished">Les poumons ; pour le patient intégré, tous les organes.</translation>
+        </message>
+        <message>
+            <source>Grid, electrodes and zones</source>
+            <translation type="unfinished">Grille, électrodes et zones</translation>
+        </message>
+        <message>
+            <source>What the exercise asks for: grid on the skin; electrodes, zones, margins.</source>
+            <translation type="unfinished">Ce que l'exercice demande : grille sur la peau ; électrodes, zones, marges.</translation>
         </message>
         <message>
             <source>Light background</source>
@@ -24467,8 +24479,36 @@ haply: est un Haply Inverse3</translation>
             <translation type="unfinished">une ablation de l’enregistrement n’en est pas une : {numbers}</translation>
         </message>
         <message>
+            <source>grid on the skin</source>
+            <translation type="unfinished">grille sur la peau</translation>
+        </message>
+        <message>
+            <source>laser {mm:.1f} mm</source>
+            <translation type="unfinished">laser {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>margin ≥ {mm:g} mm</source>
+            <translation type="unfinished">marge ≥ {mm:g} mm</translation>
+        </message>
+        <message>
+            <source>margin less</source>
+            <translation type="unfinished">marge moindre</translation>
+        </message>
+        <message>
+            <source>not covered</source>
+            <translation type="unfinished">non couvert</translation>
+        </message>
+        <message>
             <source>least {mm:.1f} mm</source>
             <translation type="unfinished">minimum {mm:.1f} mm</translation>
+        </message>
+        <message>
+            <source>ablated zones</source>
+            <translation type="unfinished">zones d'ablation</translation>
+        </message>
+        <message>
+            <source>electrodes: {n}</source>
+            <translation type="unfinished">électrodes : {n}</translation>
         </message>
         <message>
             <source>Dashed: planned zone; solid: ablated zone. On the lesion's edge: ○ margin as wanted, △ less, ✕ not covered</source>
@@ -24653,6 +24693,10 @@ haply: est un Haply Inverse3</translation>
         <message>
             <source>the other side has closed it</source>
             <translation type="unfinished">l’autre côté l’a fermée</translation>
+        </message>
+        <message>
+            <source>planned zones</source>
+            <translation type="unfinished">zones prévues</translation>
         </message>
     </context>
 </TS>

@@ -154,8 +154,11 @@ def test_a_step_is_asked_for_once_however_fast_its_key_is_pressed(panel: Procedu
 def test_before_the_first_movement_the_line_says_what_comes_then() -> None:
     step = NextStep(StepKind.MOVE, procedure=turned(ToolInHand.ANAESTHETIC))
     assert step_words(step, True) == (
-        "Ready: the clock starts when you move. Then: Ask for consent (J)"
+        "Ready: the clock starts when you move, or with this: Ask for consent (J)"
     )
+    checked = turned(ToolInHand.ANAESTHETIC, checked=(Step.CONSENT, Step.COAGULATION))
+    words = step_words(NextStep(StepKind.MOVE, procedure=checked), True)
+    assert words.startswith("Ready: the clock starts when you move. Then: Push to just before")
 
 
 def test_where_control_scans_guide_every_step_can_be_done_by_the_key(panel: ProcedurePanel) -> None:

@@ -709,7 +709,7 @@ def test_keys_look_along_the_needle_and_back(view):
 
 @pytest.mark.parametrize(("key", "part"), [
     (Qt.Key.Key_X, "xray"), (Qt.Key.Key_C, "cut"), (Qt.Key.Key_M, "slices"),
-    (Qt.Key.Key_Y, "organs"), (Qt.Key.Key_Q, "light"),
+    (Qt.Key.Key_Y, "organs"), (Qt.Key.Key_Q, "light"), (Qt.Key.Key_Z, "guides"),
 ])  # fmt: skip
 def test_a_key_switches_what_is_shown(view, key, part):
     spy = QSignalSpy(view.display_changed)

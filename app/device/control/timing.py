@@ -144,7 +144,8 @@ class TickWatch:
 def _used(thread: threading.Thread) -> tuple[float, float]:
     """Processor time of a thread and its limit [s]; or the time of day's, where there is none."""
     if hasattr(time, "pthread_getcpuclockid") and thread.ident is not None and thread.is_alive():
-        return time.clock_gettime(time.pthread_getcpuclockid(thread.ident)), LIMIT
+        with contextlib.suppress(OSError):  # it can end between the two
+            return time.clock_gettime(time.pthread_getcpuclockid(thread.ident)), LIMIT
     return time.monotonic(), _WITHOUT_CLOCK
 
 

@@ -95,7 +95,7 @@ class Zone:
         n = np.arange(count) + 0.5
         polar = np.arccos(1.0 - 2.0 * n / count)
         turn = np.pi * (1.0 + 5.0**0.5) * n
-        first, second = self._across()
+        first, second = self.across()
         along = self.half_long_mm * np.cos(polar)
         out = self.half_short_mm * np.sin(polar)
         return np.asarray(
@@ -109,7 +109,8 @@ class Zone:
     def _largest(self) -> float:
         return max(self.half_long_mm, self.half_short_mm)
 
-    def _across(self) -> tuple[FloatArray, FloatArray]:
+    def across(self) -> tuple[FloatArray, FloatArray]:
+        """Return two unit directions across its axis and each other, each of shape (3,)."""
         first = np.cross(self.axis, np.eye(3)[int(np.argmin(np.abs(self.axis)))])
         first /= np.linalg.norm(first)
         return first, np.cross(self.axis, first)
@@ -126,7 +127,7 @@ class Zone:
         along = away @ self.axis
         side = away - along[:, None] * self.axis
         across = np.linalg.norm(side, axis=1)
-        first, _ = self._across()
+        first, _ = self.across()
         off = across > 1e-12
         out = np.where(off[:, None], side / np.where(off, across, 1.0)[:, None], first)
         y = np.stack([np.abs(along), across])

@@ -43,6 +43,7 @@ from app.views.kit.parts import PlainLabel
 from app.views.kit.text import number, tr
 from app.views.reading.layouts import BULLSEYE, IN_PLANE, PROBE, SCENE, Layout, ViewGrid
 from app.views.scene.display import Display
+from app.views.scene.guides import ABLATION, ablation_guides
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
@@ -524,6 +525,8 @@ class ReplayViews(QWidget):
         self.viewing.set_cursor(review.placed.plan.target_mm)
         scene.set_plan(draft)
         scene.set_tolerances(radii)
+        ablation = review.ablation
+        scene.set_guides(ABLATION, None if ablation is None else ablation_guides(ablation))
         self._mark_met(review)
         self._look_at_path(scene)
         self._fit_due = True
@@ -599,6 +602,7 @@ class ReplayViews(QWidget):
             self.scene.set_surfaces(None)
             self.scene.set_structures(())
             self.scene.set_plan(DraftPlan())
+            self.scene.set_guides(ABLATION, None)
         for marks in (*self.met, self.met_scene):
             if marks is not None:
                 marks.set_places(())

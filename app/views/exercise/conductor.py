@@ -36,7 +36,7 @@ from app.views.exercise.entry_marking import EntryMarking
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.runs import Runs
 from app.views.exercise.scan_source import ScanSource
-from app.views.exercise.target_motion import AblationView, TargetMotion
+from app.views.exercise.target_motion import AblationView, GridScene, TargetMotion
 from app.views.kit.background import Indicator
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
@@ -214,6 +214,8 @@ class Conductor(QObject):
             self,
         )
         workspace.exercise_panel.scan.choices.changed.connect(self.marking.show_words)
+        self._grid = GridScene(workspace.scene, self)
+        self.marking.shown.connect(self._grid.show)
         self.controller.rester.seen = self._is_seen
         self._connect()
 
@@ -627,6 +629,7 @@ class Conductor(QObject):
         """Let go of everything that runs; idempotent."""
         self.controller.detach()
         self._surfaces.close()
+        self._grid.close()
         self.runs.close()
         self._workspace.scene.close_renderer()
         for viewing in (self._workspace.viewing, self._workspace.scan_view.viewing):

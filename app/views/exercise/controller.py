@@ -169,7 +169,7 @@ class ExerciseDisplay:
         views.panel.bevel.show_roll(snapshot.roll, commands)
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         inside = tip_inside(snapshot, run.shown.live)
-        acts = commands and snapshot.state not in (State.WITHDRAWING, State.PAUSED)
+        acts = commands and snapshot.takes_steps
         views.panel.patient.show_patient(snapshot.complications, commands)
         electrodes, other = of_electrodes(snapshot.procedure)
         steps = None if other is None or not other.part.has_steps else other

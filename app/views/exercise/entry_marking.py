@@ -31,16 +31,14 @@ from app.views.exercise.scan_view import FARTHEST_MM
 from app.views.kit.form import Form
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import tr, translated
-from app.views.kit.theme import Mark
 from app.views.plan.editor import PlanEditor
+from app.views.scene.guides import LASER, WIRE
 from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.pane import SlicePane
 from app.views.slices.plane import SlicePlane
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool
 
-WIRE = Mark("#f2c14e", width=1.5)
-LASER = Mark("#e0523f", width=1.5)
 DOT_MM = 1.0
 NUMBER_PX = QPointF(-4.0, -7.0)
 APART_PX = 20.0
@@ -162,12 +160,15 @@ class EntryMarking(QObject):
 
     Signals:
         failed(object): why a place cannot be marked.
+        shown(object, object): the grid that is shown and the laser's table position [mm]; None for
+            none.
 
     Attributes:
         mark: of the entry that stands; None while none is marked.
     """
 
     failed = Signal(object)
+    shown = Signal(object, object)
 
     def __init__(
         self,
@@ -253,9 +254,11 @@ class EntryMarking(QObject):
 
     def _show(self) -> None:
         grid = self._grid
+        table = None if grid is None else float(self._panel.table.value())
         for pane, layer in zip(self._panes, self.layers, strict=True):
-            layer.set_grid(grid, None if grid is None else self._panel.table.value())
+            layer.set_grid(grid, table)
             pane.canvas.refresh()
+        self.shown.emit(grid, table)
         self._panel.words.setText("" if grid is None else self._words())
 
     def _words(self) -> str:

@@ -59,6 +59,8 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
         return touch_words(step, step.touch)
     if step.procedure is not None:
         words = procedure_words(step.procedure, step.inside)
+        if step.kind is StepKind.MOVE and step.procedure.checks_left:
+            return tr("Ready: the clock starts when you move, or with this: {step}", step=words)
         if step.kind is StepKind.MOVE:
             return tr("Ready: the clock starts when you move. Then: {step}", step=words)
         moves = not (step.procedure.checks_left or step.procedure.rolled)

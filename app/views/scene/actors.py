@@ -61,6 +61,7 @@ class Solid:
         self._radius_mm, self._least_px, self._mm_per_px = radius_mm, least_px, 0.0
         self._matrix: FloatArray | None = None
         self._source = source  # its output port does not keep it
+        self._where, self._is_shown = (renderer, over), True
         self._actors = [
             _actor(where, source, opacity * share)
             for where, share in ((renderer, 1.0), (over, SEEN_THROUGH))
@@ -87,6 +88,17 @@ class Solid:
         for ghost in self._actors[1:]:
             ghost.GetProperty().SetOpacity(1.0 if display.xray else SEEN_THROUGH)
 
+    def set_shown(self, shown: bool) -> None:
+        """Stand in the picture where it was placed, or not at all."""
+        self._is_shown = shown
+        self._stand()
+
+    def remove(self) -> None:
+        """Stand in the picture no longer."""
+        for actor, renderer in zip(self._actors, self._where, strict=False):
+            if renderer is not None:
+                renderer.RemoveActor(actor)
+
     def set_mark(self, mark: Mark) -> None:
         """Take the colour of another mark."""
         self._mark = mark
@@ -99,7 +111,7 @@ class Solid:
 
     def _stand(self) -> None:
         for actor in self._actors:
-            actor.SetVisibility(self._matrix is not None)
+            actor.SetVisibility(self._matrix is not None and self._is_shown)
             if self._matrix is not None:
                 actor.SetUserMatrix(_vtk_matrix(self._matrix @ np.diag([*self._thick(), 1.0])))
 
@@ -298,13 +310,23 @@ class Cloud:
         self._actor.GetProperty().SetColor(*(value / 255.0 for value in rgb_255))
         self._actor.GetProperty().SetAmbient(0.4)
         self._actor.VisibilityOff()
+        self._renderer, self._has_points, self._is_shown = renderer, False, True
         renderer.AddActor(self._actor)
+
+    def set_shown(self, shown: bool) -> None:
+        """Stand in the picture, if there are points."""
+        self._is_shown = shown
+        self._actor.SetVisibility(shown and self._has_points)
+
+    def remove(self) -> None:
+        """Stand in the picture no longer."""
+        self._renderer.RemoveActor(self._actor)
 
     def place(self, points_mm: FloatArray | None) -> None:
         """Stand at points [mm], shape (n, 3); hidden without."""
-        shown = points_mm is not None and len(points_mm) > 0
-        self._actor.SetVisibility(shown)
-        if points_mm is None or not shown:
+        self._has_points = points_mm is not None and len(points_mm) > 0
+        self.set_shown(self._is_shown)
+        if points_mm is None or not self._has_points:
             return
         places = vtkPoints()
         places.SetData(numpy_to_vtk(np.ascontiguousarray(points_mm), deep=True))

@@ -51,6 +51,7 @@ class Display:
         slices: so do the slices through the crosshair.
         cut: what is in front of the needle's plane is taken away; the CT is on the cut.
         volume: preset of the volume rendering; empty for surfaces.
+        guides: what an exercise asks for stands in it: a grid on the skin, electrodes, zones.
     """
 
     light: bool = False
@@ -59,6 +60,7 @@ class Display:
     slices: bool = False
     cut: bool = False
     volume: str = ""
+    guides: bool = True
 
     def switched(self, part: str) -> Display:
         """Return it with a field that is on or off the other way round."""

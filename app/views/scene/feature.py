@@ -171,6 +171,11 @@ class SceneMenu:
                 ),
                 ("M", tr("Slices"), tr("Axial, sagittal and coronal slice where they are.")),
                 ("Y", tr("Organs"), tr("The lungs; of the built-in patient all organs.")),
+                (
+                    "Z",
+                    tr("Grid, electrodes and zones"),
+                    tr("What the exercise asks for: grid on the skin; electrodes, zones, margins."),
+                ),
                 ("Q", tr("Light background"), tr("For projectors.")),
             ),
         )
@@ -208,6 +213,7 @@ class SceneMenu:
             "M": display.slices,
             "Y": display.organs,
             "Q": display.light,
+            "Z": display.guides,
         }
         for key, action in self.switches.items():
             action.setChecked(states[key])

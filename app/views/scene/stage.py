@@ -29,6 +29,8 @@ from app.views.kit.theme import Mark
 from app.views.plan.entry_map import COLOURS, SIZES_PX, EntryMap
 from app.views.scene.actors import Ball, Cloud, Ring, Rod, SurfaceActor
 from app.views.scene.display import ORGAN_COLOURS, SEEN_INTO, Display, Section, rgb
+from app.views.scene.guide_actors import GuideActors
+from app.views.scene.guides import Guides
 from app.views.scene.mesh import Mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.robot import Cable, RobotShape
@@ -107,6 +109,7 @@ class Stage:
         self._cables: list[Rod] = []
         self._fulcrum = Ball(scene, theme.ROBOT, FULCRUM_RADIUS_MM)
         self._shapes: dict[tuple[object, ...], tuple[list[Rod | Ball], list[Ring]]] = {}
+        self._guides: dict[str, GuideActors] = {}
         self._needle = [self._new_piece()]
         self._tip = Ball(scene, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM, 1.5 * NEEDLE_PX, over)
         self._error = Ball(scene, theme.NEEDLE_TIP, 1.0, opacity=0.35)
@@ -194,6 +197,16 @@ class Stage:
             points = None if shown is None else shown.points_mm[shown.classes == number]
             cloud.place(points)
 
+    def set_guides(self, part: str, guides: Guides | None) -> None:
+        """Show what a part of the exercise asks for in place of what it showed; None: nothing."""
+        before = self._guides.pop(part, None)
+        if before is not None:
+            before.remove()
+        if guides is not None:
+            self._guides[part] = guide = GuideActors(self._renderer, self._over, guides)
+            guide.show(self._display)
+            guide.cut(None if self._cut_frame is None else self._cut_plane)
+
     # --- how it is shown ----------------------------------------------------------------------
     def set_display(self, display: Display) -> None:
         """Take another background, see into the body otherwise."""
@@ -201,6 +214,8 @@ class Stage:
         self._renderer.SetBackground(*rgb(display.background))
         for solid in self._solids():
             solid.show(display)
+        for guide in self._guides.values():
+            guide.show(display)
         for actor, part in (
             (self._skin, "skin"),
             (self._bone, "bone"),
@@ -239,6 +254,8 @@ class Stage:
         plane = None if section is None else self._cut_plane
         for actor in self._surfaces():
             actor.cut(plane)
+        for guide in self._guides.values():
+            guide.cut(plane)
         if self._volume is not None:
             self._volume.cut(plane)
         self.set_display(self._display)
@@ -423,7 +440,8 @@ class Stage:
         window.Render()
 
     def _surfaces(self) -> tuple[SurfaceActor, ...]:
-        return self._skin, self._bone, *self._organs.values(), *self._structures
+        covered = (guide.covered for guide in self._guides.values() if guide.covered is not None)
+        return self._skin, self._bone, *self._organs.values(), *self._structures, *covered
 
     def _aim(self, orbit: Orbit, size_px: tuple[int, int]) -> None:
         camera = self._renderer.GetActiveCamera()
@@ -435,6 +453,8 @@ class Stage:
         mm_per_px = orbit.mm_per_px(size_px)
         for solid in self._solids():
             solid.zoom(mm_per_px)
+        for guide in self._guides.values():
+            guide.zoom(mm_per_px)
         frame = self._cut_frame
         if frame is not None:
             side = 1.0 if float(frame.normal @ orbit.backwards) >= 0.0 else -1.0

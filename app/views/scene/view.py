@@ -51,6 +51,7 @@ from app.views.scene.words import Entry, draw_compass, draw_targets, draw_words
 if TYPE_CHECKING:
     from app.imaging.structures.structure import Colour
     from app.views.plan.entry_map import EntryMap
+    from app.views.scene.guides import Guides
     from app.views.scene.mesh import Mesh
     from app.views.scene.surfaces import Surfaces
 
@@ -107,6 +108,7 @@ class SceneView(QWidget):
         commands: what the view does by itself, by the key that asks for it.
         surfaces: skin, bone and organs as they are shown; None while there are none.
         structures: those that are shown, each in its colour.
+        guides: what the exercise asks for beside, by its part.
         overlays: draw more over the picture, with the place of any point in the pane.
     """
 
@@ -130,6 +132,7 @@ class SceneView(QWidget):
         self.legend: tuple[Entry, ...] = ()
         self._robot_legend: tuple[Entry, ...] = ()
         self._organs: tuple[str, ...] = ()
+        self.guides: Mapping[str, Guides] = {}
         self._enlargement = Enlargement()
         self._pressed, self._last = QPointF(), QPointF()
         self.display, self._before = Display(), list[Orbit]()
@@ -164,6 +167,7 @@ class SceneView(QWidget):
             "M": switch("slices"),
             "Y": switch("organs"),
             "Q": switch("light"),
+            "Z": switch("guides"),
             "V": self.show_next_preset,
         }
 
@@ -259,6 +263,14 @@ class SceneView(QWidget):
     def set_entry_map(self, shown: EntryMap | None) -> None:
         """Show scored entries on the skin, or none."""
         self._feed.change("entry map", lambda stage: stage.set_entry_map(shown))
+
+    def set_guides(self, part: str, guides: Guides | None) -> None:
+        """Show what a part of the exercise asks for, or nothing of it."""
+        if guides is not self.guides.get(part):
+            others = {name: one for name, one in self.guides.items() if name != part}
+            self.guides = others if guides is None else others | {part: guides}
+            self._feed.change(f"guides of {part}", lambda stage: stage.set_guides(part, guides))
+            self.update()
 
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and path."""
@@ -432,7 +444,9 @@ class SceneView(QWidget):
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note
-        legend = (*self._robot_legend, *self.legend, *self._organ_legend())
+        asked = self.guides.values() if display.guides else ()
+        guides = (entry for one in asked for entry in one.legend)
+        legend = (*self._robot_legend, *guides, *self.legend, *self._organ_legend())
         if self.width() < LEGEND_FROM_PX * theme.scale():  # it would lie on the body
             legend, scale = (), 0.0
         button = self._button.geometry()
