@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak twin check bench trial fuzz kills accuracy firmware promises tests-page portraits docs docs-pictures looks spelling wheel wheels sbom deb wheelhouse kit clean
+.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless load soak twin check bench trial fuzz kills accuracy firmware promises tests-page portraits docs docs-pictures looks spelling wheel wheels sbom deb try-deb wheelhouse kit clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -143,6 +143,9 @@ kit: setup  ## the hardware kit: numbers of the profiles, print files and pictur
 
 sbom: setup  ## what the trainer consists of as CycloneDX, with digests and licences; asks the package index
 	$(BIN)/python -m tools.sbom
+
+try-deb:  ## that package as a stranger has it, in a Debian of its own: installed, used, installed again, removed
+	./tools/try-deb
 
 deb: wheel  ## a Debian package with the trainer, its own environment and a menu entry: dist/acus_*.deb
 	$(BIN)/python -m tools.deb

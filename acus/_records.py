@@ -200,7 +200,7 @@ def replay(path: str | Path) -> Replay:
     Raises:
         AcusError: if the record cannot be read, or holds too little to be computed again.
     """
-    from app.compose.trainer import replay_recording
+    from app.compose.recomputed import replay_recording
 
     return replay_recording(read_recording(Path(path)))
 

@@ -101,6 +101,14 @@ def test_a_demonstration_of_an_exercise_that_there_is_not_names_those_that_there
     assert "plan-it-yourself" in done.stderr
 
 
+def test_a_demonstration_that_nothing_could_be_kept_of_is_refused_before_it_begins(tmp_path):
+    (tmp_path / "file").touch()
+    done = CliRunner().invoke(build(), ["demo", "--headless", "--out", str(tmp_path / "file/out")])
+    assert done.exit_code != 0
+    assert "nothing can be written" in f"{done.exception} {done.output}"
+    assert "opening the patient" not in done.output
+
+
 def mine(tmp_path, **changes):
     """A file of an exercise that is in no library."""
     text = (ROOT / "resources" / "exercises" / "first-insertion.yaml").read_text("utf-8")

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from app.compose.cameras import AttachedCameras
+from app.compose.recomputed import replay_recording
 from app.compose.trainer import (
     TrainerSetup,
     _context,
     beginnings_of,
     build_loop,
     device_of,
-    replay_recording,
 )
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock

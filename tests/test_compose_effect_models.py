@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from test_replay import PLAN, attempt
 
-from app.compose.trainer import Rig, TrainerSetup, device_of, replay_recording
+from app.compose.recomputed import replay_recording
+from app.compose.trainer import Rig, TrainerSetup, device_of
 from app.core import state_vector as sv
 from app.core.clock import SystemClock, VirtualClock
 from app.core.errors import AcusError

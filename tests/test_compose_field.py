@@ -14,7 +14,8 @@ from app.compose.exercise_ct import load_field, read_ct
 from app.compose.exercise_field import FIELD, resolve_tissue
 from app.compose.explaining import quick_explanation
 from app.compose.loop_truth import disagreements, met_in_loop
-from app.compose.trainer import TrainerSetup, _context, build_loop, replay_recording
+from app.compose.recomputed import replay_recording
+from app.compose.trainer import TrainerSetup, _context, build_loop
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.errors import ExerciseError

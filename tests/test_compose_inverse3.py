@@ -8,11 +8,13 @@ import pytest
 from device.inverse3_rig import DEVICE, ScriptedService
 
 from app.compose.hub_tracker import HubTracker
-from app.compose.trainer import TrainerSetup, build_rig, device_of, replay_recording
+from app.compose.recomputed import replay_recording
+from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.core.clock import VirtualClock
+from app.core.events import EventQueue
 from app.core.latest import Latest
 from app.device.links import inverse3
-from app.device.links.inverse3 import Hub
+from app.device.links.link import Hub, ToldHub
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.session.errors import IllegalTransitionError
@@ -26,15 +28,8 @@ PROFILE = device_of(EXERCISE)
 ENTRY = np.array([0.0, -0.12, 0.0])
 
 
-class Told:
-    """A link that tells what a test says."""
-
-    def __init__(self):
-        self.hub, self.events = Latest(), None
-
-
 def tracker(clock):
-    told, fixes = Told(), []
+    told, fixes = ToldHub(Latest(), EventQueue()), []
     return told, fixes, HubTracker(told, PROFILE, clock, fixes.append)
 
 
@@ -42,7 +37,7 @@ def test_a_place_of_the_hub_is_one_fix_with_the_tip_at_its_depth():
     clock = VirtualClock(10.0)
     told, fixes, looks = tracker(clock)
     axis = np.array([0.6, 0.0, -0.8])
-    told.hub.publish(Hub(tuple(axis.tolist()), 0.15, inside=True), 9.99)
+    told.latest.publish(Hub(tuple(axis.tolist()), 0.15, inside=True), 9.99)
     looks.look()
     looks.look()
     (fix,) = fixes
@@ -51,6 +46,7 @@ def test_a_place_of_the_hub_is_one_fix_with_the_tip_at_its_depth():
     assert fix.depth == pytest.approx(PROFILE.needle_length - 0.15)
     np.testing.assert_allclose(fix.p_tip_world, PROFILE.fulcrum + fix.depth * axis)
     assert looks.statistics().status is FixStatus.VALID
+    assert looks.statistics().told_by == "Haply Inverse3"
     assert looks.inspect().pictures == ()
 
 
@@ -58,7 +54,7 @@ def test_a_hub_where_no_needle_can_be_and_one_that_is_told_no_more_give_no_tip()
     clock = VirtualClock(10.0)
     told, fixes, looks = tracker(clock)
     looks.look()
-    told.hub.publish(Hub((0.0, 0.0, -1.0), 0.01, inside=False), 10.0)
+    told.latest.publish(Hub((0.0, 0.0, -1.0), 0.01, inside=False), 10.0)
     looks.look()
     clock.sleep(0.3)
     looks.look()

@@ -5,7 +5,8 @@ import pytest
 
 from app.compose.needle_sources import needle_source
 from app.compose.pen import Pen, joint_angles, without_force
-from app.compose.trainer import TrainerSetup, build_rig, replay_recording
+from app.compose.recomputed import replay_recording
+from app.compose.trainer import TrainerSetup, build_rig
 from app.core import state_vector as sv
 from app.core.arrays import unit
 from app.core.clock import VirtualClock

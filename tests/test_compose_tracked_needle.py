@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 from app.compose.needle_sources import check, named, needle_source
+from app.compose.recomputed import replay_recording
 from app.compose.tracked_needle import TrackedSettings
-from app.compose.trainer import TrainerSetup, build_rig, replay_recording
+from app.compose.trainer import TrainerSetup, build_rig
 from app.core.arrays import unit
 from app.core.clock import SystemClock, VirtualClock
 from app.core.errors import AcusError

@@ -10,12 +10,12 @@ import pytest
 from scipy.signal import welch
 from virtual_student import Student
 
+from app.compose.recomputed import replay_recording
 from app.compose.trainer import (
     TrainerSetup,
     beginnings_of,
     build_rig,
     loop_table,
-    replay_recording,
 )
 from app.core import state_vector as sv
 from app.exercises.library import load_exercise

@@ -65,7 +65,8 @@ def test_it_holds_menu_entry_icon_and_command_with_roots_rights(package):
     assert rights["./usr/bin/acus"] == "-rwxr-xr-x"
     assert rights["./usr/share/applications/acus.desktop"] == "-rw-r--r--"
     assert "./usr/share/icons/hicolor/scalable/apps/acus.svg" in rights
-    assert "./opt/acus/wheels/acus-1.2-py3-none-any.whl" in rights
+    assert "./usr/lib/acus/wheels/acus-1.2-py3-none-any.whl" in rights
+    assert not any(name.startswith("./opt") for name in rights)  # dpkg would remove it, once empty
     assert not any("home" in name or "site-packages" in name for name in rights)
 
 
@@ -82,6 +83,7 @@ def test_dpkg_installs_it_without_a_network_and_removes_it_without_a_trace(packa
     (root / "var/lib/dpkg/info").mkdir(parents=True)
     (root / "var/lib/dpkg/updates").mkdir()
     (root / "var/lib/dpkg/status").touch()
+    (root / "opt").mkdir()  # as every Debian has it
     theirs = root / "home/somebody/.local/share/acus/attempt.mcap"
     theirs.parent.mkdir(parents=True)
     theirs.write_text("kept")
@@ -96,6 +98,7 @@ def test_dpkg_installs_it_without_a_network_and_removes_it_without_a_trace(packa
     said(*dpkg, "--install", package, env=own)  # again, as an upgrade does
     assert said(command, "demo") == "acus demo\n"
     said(*dpkg, "--remove", "acus", env=own)
-    assert not (root / "opt/acus").exists()
+    assert list((root / "opt").iterdir()) == []
+    assert not (root / "usr/lib/acus").exists()
     assert not (root / "usr/bin/acus").exists()
     assert theirs.read_text() == "kept"

@@ -285,7 +285,7 @@ def test_a_machine_points_the_needle_in_a_whole_attempt(tmp_path, monkeypatch):
     from machine_records import Made, make
 
     from app.compose.plugins import plugin_files
-    from app.compose.trainer import replay_recording
+    from app.compose.recomputed import replay_recording
     from app.mechanisms.profile import kinds
     from app.planning.limits import ReachLimits
     from app.session.recording import read_recording

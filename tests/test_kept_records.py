@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from app.compose.trainer import replay_recording
+from app.compose.recomputed import replay_recording
 from app.exchange.csv_export import score_table, trajectory_table
 from app.session.recording import read_recording
 from app.session.review import review

@@ -16,7 +16,8 @@ from typer.testing import CliRunner
 
 from app.commands import build as command_line
 from app.compose.cameras import AttachedCameras
-from app.compose.trainer import TrainerSetup, _context, build_loop, device_of, replay_recording
+from app.compose.recomputed import replay_recording
+from app.compose.trainer import TrainerSetup, _context, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.build import BUILD
 from app.core.clock import Clock, SystemClock, VirtualClock

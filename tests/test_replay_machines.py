@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from app.compose.trainer import replay_recording
+from app.compose.recomputed import replay_recording
 from app.session.recording import read_recording
 from tests.machine_records import FOLDER, RECORDS
 

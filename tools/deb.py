@@ -2,7 +2,8 @@
 
 In it lie the wheels of the trainer in the pinned versions, a menu entry with its icon, and a
 command `acus`. On installing, `/opt/acus/venv` is made of these wheels alone, without a network;
-removing the package removes it. What people did (attempts, settings, CTs) stays.
+removing the package removes it. What people did (attempts, settings, CTs) stays. Nothing that the
+package holds lies in `/opt`: with it dpkg would take that folder away, which the system made.
 
 The package is for the minor version of Python that makes it, as compiled wheels are.
 """
@@ -22,7 +23,7 @@ from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[1]
 DIST: Final = ROOT / "dist"
-HOME: Final = "opt/acus"
+HOME: Final = "usr/lib/acus"
 FOR: Final = f"{sys.version_info.major}.{sys.version_info.minor}"
 
 CONTROL: Final = """Package: acus
@@ -41,20 +42,22 @@ Description: trainer for CT-guided needle insertion
 POSTINST: Final = """#!/bin/sh
 set -e
 [ "$1" = configure ] || exit 0
+given="${DPKG_ROOT:-}/usr/lib/acus"
 home="${DPKG_ROOT:-}/opt/acus"
 rm -rf "$home/venv"
-trap 'rm -rf "$home/venv"' EXIT
+trap 'rm -rf "$home"' EXIT
+mkdir -p "$home"
 python@FOR@ -m venv "$home/venv"
 "$home/venv/bin/python" -m pip install --quiet --disable-pip-version-check --isolated \\
-    --no-index --no-compile --find-links "$home/wheels" \\
-    --constraint "$home/constraints.txt" '@WANTED@'
+    --no-index --no-compile --find-links "$given/wheels" \\
+    --constraint "$given/constraints.txt" '@WANTED@'
 "$home/venv/bin/python" -m compileall -q "$home/venv/lib" >/dev/null || true
 trap - EXIT
 """
 
 PRERM: Final = """#!/bin/sh
 set -e
-[ "$1" = upgrade ] || rm -rf "${DPKG_ROOT:-}/opt/acus/venv"
+[ "$1" = upgrade ] || rm -rf "${DPKG_ROOT:-}/opt/acus"
 """
 
 COMMAND: Final = '#!/bin/sh\nexec /opt/acus/venv/bin/acus "$@"\n'

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from enum import StrEnum
 from inspect import cleandoc
 from pathlib import Path
+from tempfile import TemporaryFile
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -143,6 +144,8 @@ def demo(
     hidden = headless or not has_display()
     name = "demo" if other is None else f"demo-{device.value}"
     folder = out or (Path("out") / name if hidden else None)
+    if folder is not None:
+        _try_to_write(folder)
     if other is not None and hidden and folder is not None:
         _show_alone(other, seed, folder)
     leader = None if other is None else other.leader
@@ -160,6 +163,23 @@ def demo(
     finally:
         for watcher in watchers:
             watcher.close()
+
+
+def _try_to_write(folder: Path) -> None:
+    """Refuse, before minutes are spent on it, a folder in which nothing can be written."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise AcusError(
+            sentence(
+                "nothing can be written to {folder} ({error}); start it in a folder of your own, or"
+                " name one by --out",
+                folder=folder.absolute(),
+                error=error.strerror,
+            )
+        ) from error
 
 
 def _demonstration(name: str) -> ModuleType:

@@ -137,7 +137,7 @@ def replay(
     if not check:
         content = contents(recording)
         return Answer(content.document(), list(content.sentences()))
-    from app.compose.trainer import replay_recording  # loads kernels
+    from app.compose.recomputed import replay_recording  # loads kernels
     from app.session.verify import verify as verified
 
     report, found = replay_recording(recording), verified(recording)

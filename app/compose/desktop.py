@@ -159,6 +159,12 @@ class Desktop:
 
         return robot_ports()
 
+    def served_robots(self) -> tuple[RobotPort, ...]:
+        """Robots behind a service of this computer; called beside the window."""
+        from app.compose.robot import served_robots
+
+        return served_robots()
+
     def open_robot(self, port: str, profile: DeviceProfile, progress: Progress) -> Bench:
         """Open a robot for commissioning; called beside the window, may take seconds."""
         from app.compose.robot import open_bench

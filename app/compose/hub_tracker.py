@@ -15,7 +15,7 @@ from app.core.clock import Clock
 from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE
-from app.device.links.inverse3 import Inverse3Link
+from app.device.links.link import ToldHub
 from app.mechanisms.profile import DeviceProfile
 from app.tracking.fix import FixStatus, NeedleFix, without_point
 from app.tracking.told_fixes import ToldFixes
@@ -34,7 +34,7 @@ class HubTracker(ToldFixes):
     """Makes fixes of the cursor's places (`tracking.needle_tracker.NeedleTracker`).
 
     Args:
-        link: of the device.
+        hub: what the device tells.
         profile: of the pantograph that it stands in for.
         clock: for ages.
         on_fix: gets every fix, in the tracker's thread.
@@ -42,14 +42,14 @@ class HubTracker(ToldFixes):
 
     def __init__(
         self,
-        link: Inverse3Link,
+        hub: ToldHub,
         profile: DeviceProfile,
         clock: Clock,
         on_fix: Callable[[NeedleFix], None],
     ) -> None:
-        super().__init__(clock)
-        self.events, self._seen = link.events, -np.inf
-        self._link, self._profile, self._on_fix = link, profile, on_fix
+        super().__init__(clock, CURSOR["name"])
+        self.events, self._seen = hub.events, -np.inf
+        self._hub, self._profile, self._on_fix = hub, profile, on_fix
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
 
@@ -69,7 +69,7 @@ class HubTracker(ToldFixes):
 
     def look(self) -> None:
         """Make a fix of the newest place."""
-        stamped, now = self._link.hub.read(), self._clock.now()
+        stamped, now = self._hub.latest.read(), self._clock.now()
         if stamped is None or now - stamped.time > TRACKER_HOLD:
             fix = self._none(FixStatus.NO_PICTURE, now, sentence("the Inverse3 tells no place"))
         elif stamped.time <= self._seen:

@@ -14,8 +14,8 @@ from app.core.progress import Progress
 from app.device.commissioning.records import load_record
 from app.device.control.corrections import Corrections
 from app.device.errors import LinkError
-from app.device.links.inverse3 import Inverse3Link, robot_link
-from app.device.links.inverse_service import refuse_inverse3
+from app.device.links.inverse3 import robot_link
+from app.device.links.inverse_service import PREFIX, answering, refuse_inverse3
 from app.device.links.link import DeviceLink
 from app.device.readiness import ForceClearance, Readiness
 from app.mechanisms.profile import DeviceProfile
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 _PATIENCE: Final = 120.0
 _LOOK: Final = 0.05
+_ANSWERS: Final = 1.0
 
 
 def robot_ports() -> tuple[RobotPort, ...]:
@@ -35,6 +36,14 @@ def robot_ports() -> tuple[RobotPort, ...]:
 
     found = [(port.path, port.description) for port in ports()]
     return tuple(RobotPort(path, f"{said} ({path})" if said else path) for path, said in found)
+
+
+def served_robots() -> tuple[RobotPort, ...]:
+    """Return the Inverse3 of this computer's Haply service, if it answers; waits for that."""
+    device = answering(_ANSWERS)
+    if device is None:
+        return ()
+    return (RobotPort(PREFIX, " ".join(filter(None, ("Haply Inverse3", device, f"({PREFIX})")))),)
 
 
 def open_bench(port: str, profile: DeviceProfile, progress: Progress) -> Bench:
@@ -107,8 +116,6 @@ class Robot:
 
     def clearance(self) -> ForceClearance:
         """Return how much force the robot is cleared for now; another power cycle takes it away."""
-        if isinstance(self.link, Inverse3Link):
-            return self.link.clearance()
         return self.readiness.clearance(self.link.info(), self.profile)
 
     def metadata(self) -> dict[str, str]:

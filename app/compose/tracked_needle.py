@@ -95,7 +95,7 @@ class TrackedNeedle(ToldFixes):
         patient: Callable[[], RigidTransform],
         on_needle: Callable[[FloatArray, float], None],
     ) -> None:
-        super().__init__(clock)
+        super().__init__(clock, "OpenIGTLink")
         self.events = EventQueue()
         self.client = IgtlClient(address, self.take)
         self._settings = settings

@@ -68,6 +68,16 @@ class Readiness:
         full = profile.limits.hand_force
         if info.simulated:
             return ForceClearance(1.0, full)
+        if info.ready:
+            cap = min(UNVERIFIED_FORCE, full)
+            return ForceClearance(
+                1.0,
+                cap,
+                sentence(
+                    "forces are held to {cap:g} N: those of this device were never weighed here",
+                    cap=cap,
+                ),
+            )
         for done, lacks, step in (
             (self.homed_boot, "homed", "homing"),
             (self.signs_boot, "checked for its signs", "signs"),

@@ -33,6 +33,8 @@ class TrackerStatistics:
         fault: message of an error inside the tracker; empty without.
         skew: how far apart the two cameras capture; None before a pair came.
         cost: median time that finding the needle in a pair of pictures takes [s]; 0 if unknown.
+        told_by: who tells the fixes without pictures, by name; empty where cameras look.
+        looks_for: what is looked for in the pictures: a `marker` by two cameras, a `pen` by one.
     """
 
     rate: float
@@ -49,12 +51,20 @@ class TrackerStatistics:
     discrepancy: str = ""
     skew: Skew | None = None
     cost: float = 0.0
+    told_by: str = ""
+    looks_for: str = "marker"
 
 
 class TrackerMeter:
-    """Counts fixes; written by the tracker's thread, read by any."""
+    """Counts fixes; written by the tracker's thread, read by any.
 
-    def __init__(self) -> None:
+    Args:
+        told_by: as in `TrackerStatistics`.
+        looks_for: likewise.
+    """
+
+    def __init__(self, told_by: str = "", looks_for: str = "marker") -> None:
+        self._told_by, self._looks_for = told_by, looks_for
         self._lock = threading.Lock()
         self._recent: deque[tuple[float, float, bool, float]] = deque(maxlen=2048)
         self._counts: Counter[str] = Counter()
@@ -97,6 +107,8 @@ class TrackerMeter:
             skew=skew,
             discrepancy=newest.discrepancy.words if newest else "",
             cost=float(np.median([entry[3] for entry in recent])) if recent else 0.0,
+            told_by=self._told_by,
+            looks_for=self._looks_for,
         )
 
 

@@ -14,13 +14,14 @@ class ToldFixes:
 
     Args:
         clock: for ages.
+        told_by: who tells them, by name.
     """
 
     stereo = None
 
-    def __init__(self, clock: Clock) -> None:
+    def __init__(self, clock: Clock, told_by: str) -> None:
         self.latest: Latest[NeedleFix] = Latest()
-        self._clock, self._meter = clock, TrackerMeter()
+        self._clock, self._meter = clock, TrackerMeter(told_by)
 
     def statistics(self) -> TrackerStatistics:
         """Return the figures of the last seconds."""

@@ -2572,6 +2572,10 @@ eine einzelne Punktzahl ist auf ± {decision.score_error.absolute:.1f} Punkte ge
             <translation type="unfinished">serielle Roboter werden nur unter Linux angesteuert; dies ist {sys_platform}</translation>
         </message>
         <message>
+            <source>forces are held to {cap:g} N: those of this device were never weighed here</source>
+            <translation type="unfinished">Kräfte sind auf {cap:g} N begrenzt: die dieses Geräts wurden hier nie gewogen</translation>
+        </message>
+        <message>
             <source>no force: the encoders' directions were not seen; home against the stops (`--step homing`), or check the signs by hand (`--step signs` without --yes)</source>
             <translation type="unfinished">keine Kraft: Die Zählrichtungen der Encoder wurden nicht gesehen; referenzieren Sie an den Anschlägen (`--step homing`), oder prüfen Sie die Vorzeichen von Hand (`--step signs` ohne --yes)</translation>
         </message>
@@ -12814,6 +12818,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">dieser Rechner war zu beschäftigt: Die Bilder der simulierten Kameras kamen zu spät; schließen Sie andere Programme und versuchen Sie es noch einmal</translation>
         </message>
         <message>
+            <source>nothing can be written to {folder} ({error}); start it in a folder of your own, or name one by --out</source>
+            <translation type="unfinished">in {folder} kann nichts geschrieben werden ({error}); starten Sie in einem eigenen Ordner oder nennen Sie mit --out einen</translation>
+        </message>
+        <message>
             <source>pictures and report are in {folder}</source>
             <translation type="unfinished">Bilder und Bericht liegen in {folder}</translation>
         </message>
@@ -14043,6 +14051,10 @@ frei wählbar</translation>
             <translation type="unfinished">keine Kameras</translation>
         </message>
         <message>
+            <source>No camera looks at the needle: {source} tells it</source>
+            <translation type="unfinished">Keine Kamera sieht die Nadel an: {source} nennt ihren Ort</translation>
+        </message>
+        <message>
             <source>marker out of view (both cameras)</source>
             <translation type="unfinished">Marker außer Sicht (beide Kameras)</translation>
         </message>
@@ -14485,8 +14497,44 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Roboter angehalten: {why}</translation>
         </message>
         <message>
+            <source>Webcam</source>
+            <translation type="unfinished">Webcam</translation>
+        </message>
+        <message>
+            <source>Rate of what {source} says of the needle, share of it that can be used, age of the last such word. No camera looks at the needle. If it tells nothing, look at its cable, its power and its program.</source>
+            <translation type="unfinished">Rate dessen, was {source} von der Nadel sagt, brauchbarer Anteil, Alter der letzten Angabe. Keine Kamera sieht die Nadel an. Kommt nichts, sehen Sie nach Kabel, Strom und Programm.</translation>
+        </message>
+        <message>
+            <source>Rate of the tracker, share of pictures in which the webcam saw the pen, age of the last such fix. If the pen is out of view, bring it back before the webcam; look at the picture for dirt, light or something in the way.</source>
+            <translation type="unfinished">Rate der Nadelverfolgung, Anteil der Bilder, in denen die Webcam den Stift sah, Alter der letzten solchen Messung. Ist der Stift aus dem Bild, bringen Sie ihn vor die Webcam zurück; sehen Sie im Bild nach Schmutz, Licht oder etwas im Weg.</translation>
+        </message>
+        <message>
             <source>Rate of the tracker, share of pictures in which both cameras saw the marker, age of the last such fix. The cameras are simulated: this computer draws what they see. Where their pictures come late, close other programs.</source>
             <translation type="unfinished">Rate des Trackers, Anteil der Bilder, auf denen beide Kameras den Marker sahen, Alter der letzten solchen Messung. Die Kameras sind simuliert: Dieser Computer zeichnet, was sie sehen. Kommen ihre Bilder zu spät, schließen Sie andere Programme.</translation>
+        </message>
+        <message>
+            <source>told by {source}</source>
+            <translation type="unfinished">genannt von {source}</translation>
+        </message>
+        <message>
+            <source>told by {source} now and then</source>
+            <translation type="unfinished">ab und zu genannt von {source}</translation>
+        </message>
+        <message>
+            <source>not told by {source}</source>
+            <translation type="unfinished">nicht genannt von {source}</translation>
+        </message>
+        <message>
+            <source>sees the pen</source>
+            <translation type="unfinished">sieht den Stift</translation>
+        </message>
+        <message>
+            <source>sees the pen now and then</source>
+            <translation type="unfinished">sieht den Stift ab und zu</translation>
+        </message>
+        <message>
+            <source>does not see the pen</source>
+            <translation type="unfinished">sieht den Stift nicht</translation>
         </message>
         <message>
             <source>see the marker now and then</source>
@@ -14501,8 +14549,24 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Hier gibt es keine Kameras: Die Tiefe kommt anderswoher oder gar nicht.</translation>
         </message>
         <message>
+            <source>from the webcam</source>
+            <translation type="unfinished">von der Webcam</translation>
+        </message>
+        <message>
+            <source>from {source}</source>
+            <translation type="unfinished">von {source}</translation>
+        </message>
+        <message>
             <source>measured a moment ago</source>
             <translation type="unfinished">eben noch gemessen</translation>
+        </message>
+        <message>
+            <source>The depth is told by {source}. Without its word it is held for 200 ms. After that, and until ten in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have.</source>
+            <translation type="unfinished">Die Tiefe nennt: {source}. Ohne diese Angabe wird sie 200 ms gehalten. Danach, und bis zehn in Folge übereinstimmen, kennt sie niemand: die Kraft wird für die schlimmste Tiefe zurückgehalten, die die Nadel haben kann.</translation>
+        </message>
+        <message>
+            <source>the webcam</source>
+            <translation type="unfinished">die Webcam</translation>
         </message>
         <message>
             <source>No robot</source>
@@ -14779,6 +14843,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>By the scans (S): {step}</source>
             <translation type="unfinished">Nach den Scans (S): {step}</translation>
+        </message>
+        <message>
+            <source>One moment: {source} does not tell how deep the needle is</source>
+            <translation type="unfinished">Einen Moment: {source} nennt die Tiefe der Nadel nicht</translation>
+        </message>
+        <message>
+            <source>Push slowly{how}: nobody tells the depth</source>
+            <translation type="unfinished">Langsam schieben{how}: niemand nennt die Tiefe</translation>
         </message>
         <message>
             <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
@@ -24681,10 +24753,6 @@ haply: ist ein Haply Inverse3</translation>
         <message>
             <source>{name}: its process has ended</source>
             <translation type="unfinished">{name}: der Prozess dafür ist zu Ende</translation>
-        </message>
-        <message>
-            <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>
-            <translation type="unfinished">Kräfte sind auf {cap:g} N begrenzt: die eines Haply Inverse3 wurden hier nie gewogen</translation>
         </message>
         <message>
             <source>it does not answer a greeting</source>

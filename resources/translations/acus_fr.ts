@@ -2572,6 +2572,10 @@ un score isolé est juste à ± {decision.score_error.absolute:.1f} points (± {
             <translation type="unfinished">les robots série ne sont pilotés que sous Linux ; ici, c’est {sys_platform}</translation>
         </message>
         <message>
+            <source>forces are held to {cap:g} N: those of this device were never weighed here</source>
+            <translation type="unfinished">les forces sont limitées à {cap:g} N : celles de cet appareil n'ont jamais été pesées ici</translation>
+        </message>
+        <message>
             <source>no force: the encoders' directions were not seen; home against the stops (`--step homing`), or check the signs by hand (`--step signs` without --yes)</source>
             <translation type="unfinished">pas de force : les sens des codeurs n’ont pas été vus ; faites la prise d’origine contre les butées (`--step homing`), ou vérifiez les signes à la main (`--step signs` sans --yes)</translation>
         </message>
@@ -12814,6 +12818,10 @@ Lettres : directions du patient
             <translation type="unfinished">cet ordinateur était trop occupé : les images des caméras simulées sont arrivées trop tard ; fermez d’autres programmes, puis réessayez</translation>
         </message>
         <message>
+            <source>nothing can be written to {folder} ({error}); start it in a folder of your own, or name one by --out</source>
+            <translation type="unfinished">rien ne peut être écrit dans {folder} ({error}) ; lancez-le dans un dossier à vous, ou nommez-en un avec --out</translation>
+        </message>
+        <message>
             <source>pictures and report are in {folder}</source>
             <translation type="unfinished">les images et le compte rendu sont dans {folder}</translation>
         </message>
@@ -14043,6 +14051,10 @@ réglable</translation>
             <translation type="unfinished">pas de caméras</translation>
         </message>
         <message>
+            <source>No camera looks at the needle: {source} tells it</source>
+            <translation type="unfinished">Aucune caméra ne regarde l'aiguille : {source} dit où elle est</translation>
+        </message>
+        <message>
             <source>marker out of view (both cameras)</source>
             <translation type="unfinished">marqueur hors de vue (deux caméras)</translation>
         </message>
@@ -14485,8 +14497,44 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Robot arrêté : {why}</translation>
         </message>
         <message>
+            <source>Webcam</source>
+            <translation type="unfinished">Webcam</translation>
+        </message>
+        <message>
+            <source>Rate of what {source} says of the needle, share of it that can be used, age of the last such word. No camera looks at the needle. If it tells nothing, look at its cable, its power and its program.</source>
+            <translation type="unfinished">Cadence de ce que {source} dit de l'aiguille, part utilisable, âge de la dernière indication. Aucune caméra ne regarde l'aiguille. Si rien ne vient, vérifiez le câble, l'alimentation et le programme.</translation>
+        </message>
+        <message>
+            <source>Rate of the tracker, share of pictures in which the webcam saw the pen, age of the last such fix. If the pen is out of view, bring it back before the webcam; look at the picture for dirt, light or something in the way.</source>
+            <translation type="unfinished">Cadence du suivi, part des images où la webcam a vu le stylo, âge de la dernière mesure de ce genre. Si le stylo est hors de vue, ramenez-le devant la webcam ; cherchez dans l'image de la saleté, un défaut de lumière ou un obstacle.</translation>
+        </message>
+        <message>
             <source>Rate of the tracker, share of pictures in which both cameras saw the marker, age of the last such fix. The cameras are simulated: this computer draws what they see. Where their pictures come late, close other programs.</source>
             <translation type="unfinished">Cadence du suivi, part des images où les deux caméras ont vu le marqueur, âge de la dernière mesure de ce genre. Les caméras sont simulées : cet ordinateur dessine ce qu’elles voient. Si leurs images arrivent en retard, fermez d’autres programmes.</translation>
+        </message>
+        <message>
+            <source>told by {source}</source>
+            <translation type="unfinished">indiquée par {source}</translation>
+        </message>
+        <message>
+            <source>told by {source} now and then</source>
+            <translation type="unfinished">indiquée de temps en temps par {source}</translation>
+        </message>
+        <message>
+            <source>not told by {source}</source>
+            <translation type="unfinished">non indiquée par {source}</translation>
+        </message>
+        <message>
+            <source>sees the pen</source>
+            <translation type="unfinished">voit le stylo</translation>
+        </message>
+        <message>
+            <source>sees the pen now and then</source>
+            <translation type="unfinished">voit le stylo de temps en temps</translation>
+        </message>
+        <message>
+            <source>does not see the pen</source>
+            <translation type="unfinished">ne voit pas le stylo</translation>
         </message>
         <message>
             <source>see the marker now and then</source>
@@ -14501,8 +14549,24 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Il n’y a pas de caméras ici : la profondeur vient d’ailleurs, ou de nulle part.</translation>
         </message>
         <message>
+            <source>from the webcam</source>
+            <translation type="unfinished">de la webcam</translation>
+        </message>
+        <message>
+            <source>from {source}</source>
+            <translation type="unfinished">de {source}</translation>
+        </message>
+        <message>
             <source>measured a moment ago</source>
             <translation type="unfinished">mesurée il y a un instant</translation>
+        </message>
+        <message>
+            <source>The depth is told by {source}. Without its word it is held for 200 ms. After that, and until ten in a row agree, nobody knows it: the force is held back for the worst depth that the needle can have.</source>
+            <translation type="unfinished">La profondeur est indiquée par : {source}. Sans cette indication, elle est tenue 200 ms. Ensuite, et jusqu'à ce que dix de suite concordent, personne ne la connaît : la force est retenue pour la pire profondeur que l'aiguille peut avoir.</translation>
+        </message>
+        <message>
+            <source>the webcam</source>
+            <translation type="unfinished">la webcam</translation>
         </message>
         <message>
             <source>No robot</source>
@@ -14779,6 +14843,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>By the scans (S): {step}</source>
             <translation type="unfinished">D’après les scans (S) : {step}</translation>
+        </message>
+        <message>
+            <source>One moment: {source} does not tell how deep the needle is</source>
+            <translation type="unfinished">Un instant : {source} n'indique pas la profondeur de l'aiguille</translation>
+        </message>
+        <message>
+            <source>Push slowly{how}: nobody tells the depth</source>
+            <translation type="unfinished">Poussez lentement{how} : personne n'indique la profondeur</translation>
         </message>
         <message>
             <source>Paused: the simulated cameras do not see the needle there. Move it back a little.</source>
@@ -24681,10 +24753,6 @@ haply: est un Haply Inverse3</translation>
         <message>
             <source>{name}: its process has ended</source>
             <translation type="unfinished">{name} : son processus est terminé</translation>
-        </message>
-        <message>
-            <source>forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here</source>
-            <translation type="unfinished">les forces sont limitées à {cap:g} N : celles d’un Haply Inverse3 n’ont jamais été pesées ici</translation>
         </message>
         <message>
             <source>it does not answer a greeting</source>

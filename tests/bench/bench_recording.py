@@ -15,7 +15,8 @@ from time import perf_counter
 import numpy as np
 import zstandard
 
-from app.compose.trainer import Rig, TrainerSetup, build_rig, replay_recording
+from app.compose.recomputed import replay_recording
+from app.compose.trainer import Rig, TrainerSetup, build_rig
 from app.core.clock import Clock, SystemClock, VirtualClock
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.plan import Plan

@@ -4,6 +4,7 @@ Nobody had the device: every claim here is about the maker's published pages.
 """
 
 import json
+import socket
 import time
 
 import numpy as np
@@ -14,21 +15,19 @@ from virtual_fixture import VirtualFixture
 from app.core import state_vector as sv
 from app.device.control import Loop, machine_stages
 from app.device.errors import BoardVersionError, LinkError
-from app.device.links import inverse3
-from app.device.links.inverse3 import (
-    ANSWER_WITHIN,
-    Impersonated,
-    Inverse3Link,
-    robot_link,
-)
+from app.device.links import inverse3, inverse_service
+from app.device.links.inverse3 import ANSWER_WITHIN, Inverse3Link, robot_link
+from app.device.links.inverse_pose import Impersonated
 from app.device.links.inverse_service import (
     NO_FORCE,
     Cursor,
     InverseService,
+    answering,
     refuse_inverse3,
 )
 from app.device.links.link import LinkStatus
 from app.device.links.serial_link import SerialLink
+from app.device.readiness import Readiness
 from app.mechanisms.profile import load_profile
 
 PROFILE = load_profile("icube")
@@ -478,7 +477,9 @@ def test_a_hub_led_out_of_the_cone_feels_nothing_and_the_force_comes_back_by_and
         running.until(pushes(service), "the guidance's force")
         service.place = hub(100.0, 40.0)
         running.until(lambda row: size(service.force()) == 0.0, "no force")
-        running.until(lambda row: not running.link.hub.read().value.inside, "the hub outside")
+        running.until(
+            lambda row: not running.link.hub.latest.read().value.inside, "the hub outside"
+        )
         service.place = hub(TILT, 40.0)
         running.until(pushes(service), "the force again")
 
@@ -498,6 +499,28 @@ def test_who_answers_is_told_and_held_to_one_newton(service):
     link.close()
     assert (info.serial, info.firmware, info.protocol) == (DEVICE, "3.5.0.0", "haply inverse3")
     assert info.kind == "real"
-    clearance = link.clearance()
+    clearance = Readiness().clearance(info, PROFILE)
     assert (clearance.homed, clearance.force_cap) == (1.0, 1.0)
     assert "never weighed" in clearance.reason
+
+
+def test_a_service_is_found_by_its_inventory_and_told_nothing(service, monkeypatch):
+    monkeypatch.setattr(inverse_service, "PORT", service.port)
+    assert answering(2.0) == DEVICE
+    assert service.messages == []
+    service.inventory = without_devices
+    assert answering(2.0) == ""
+    service.inventory = lambda inventory: {"hello": []}
+    assert answering(2.0) is None
+    service.close()
+    begin = time.monotonic()
+    assert answering(2.0) is None
+    assert time.monotonic() - begin < 1.0
+
+
+def test_whoever_takes_the_connection_and_says_nothing_is_no_service(monkeypatch):
+    with socket.create_server(("127.0.0.1", 0)) as mute:
+        monkeypatch.setattr(inverse_service, "PORT", mute.getsockname()[1])
+        begin = time.monotonic()
+        assert answering(0.2) is None
+        assert time.monotonic() - begin < 2.0

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.compose.trainer import replay_recording
+from app.compose.recomputed import replay_recording
 from app.core import state_vector as sv
 from app.core.events import Event
 from app.exercises.library import load_exercise

@@ -1,5 +1,6 @@
 """The robot in the window: chosen, changed, commissioned, told of."""
 
+import threading
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ from window_rig import plan
 
 from app.views.robot.feature import RobotFeature
 from app.views.robot.wizard_pages import ConnectionPage
+from app.views.shell.services import RobotPort
 from app.views.shell.window import MainWindow
 
 
@@ -37,6 +39,38 @@ def test_a_robot_that_was_chosen_is_offered_though_it_is_gone(window, services):
     assert [robot.title for robot in window.feature(RobotFeature).ports()] == [
         "/dev/ttyACM0 – not plugged in"
     ]
+    window.feature(RobotFeature).choose("")
+
+
+def titles(window):
+    menu = window.feature(RobotFeature).menu.robots
+    return [action.text() for action in menu.actions() if action.isCheckable()]
+
+
+def test_a_robot_of_a_service_is_offered_once_it_answers_and_the_list_waits_for_nothing(
+    window, services, settle
+):
+    services.served = (RobotPort("haply:", "Haply Inverse3 049D (haply:)"),)
+    services.may_answer.clear()
+    menu = window.feature(RobotFeature).menu.robots
+    menu.aboutToShow.emit()
+    menu.aboutToShow.emit()
+    assert "Haply Inverse3 049D (haply:)" not in titles(window)
+    assert "icube A17 on /dev/ttyACM0" in titles(window)
+    services.may_answer.set()
+    assert settle(lambda: "Haply Inverse3 049D (haply:)" in titles(window))
+    (asked,) = services.served_asked
+    assert asked is not threading.current_thread()
+    services.served = ()
+    menu.aboutToShow.emit()
+    assert settle(lambda: "Haply Inverse3 049D (haply:)" not in titles(window))
+
+
+def test_a_service_that_is_used_is_left_alone_and_never_called_unplugged(window, services):
+    window.feature(RobotFeature).choose("haply:")
+    window.feature(RobotFeature).menu.robots.aboutToShow.emit()
+    assert services.served_asked == []
+    assert "haply:" in titles(window)
     window.feature(RobotFeature).choose("")
 
 

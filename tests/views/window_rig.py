@@ -188,10 +188,17 @@ class FakeServices:
         self.prepared, self.missing, self.unusable = threading.Event(), "", ()
         self.sources, self.lives = (RobotPort("usb:1-1", "Webcam (usb:1-1)"),), []
         self.pens, self.seen = [], None
+        self.served, self.served_asked, self.may_answer = (), [], threading.Event()
+        self.may_answer.set()
         self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
 
     def robots(self):
         return self.ports
+
+    def served_robots(self):
+        self.served_asked.append(threading.current_thread())
+        assert self.may_answer.wait(30.0)
+        return self.served
 
     def open_robot(self, port, profile, progress):
         if self.refuses:

@@ -1,302 +1,48 @@
 """A Haply Inverse3 as a robot: its cursor is the needle's hub.
 
-The loop keeps its own wire. A process stands where a board would, at the other end of a pair of
-sockets: it says the joint angles that a pantograph would have with its hub there, and turns the
-torques that come for them into the force at the hub that they are, by virtual work. So every
-exercise of a pantograph runs, and what the loop does about a wire that falls silent holds as it is.
-
-No command is answered before the service has answered a question that was asked after it: an angle
-is never older than the loop takes it for.
+The loop keeps its own wire. A process stands where a board would (`inverse_bridge`), at the other
+end of a pair of sockets. So every exercise of a pantograph runs, and what the loop does about a
+wire that falls silent holds as it is.
 """
 
 from __future__ import annotations
 
 import json
-import os
-import select
-import signal
 import socket
-import struct
 import subprocess
-import sys
 import threading
-import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from math import cos, hypot, isfinite, radians, sin, sqrt
-from typing import IO, Any, NamedTuple, cast
-
-import numpy as np
+from typing import IO, Any, cast
 
 from app.core import paths
 from app.core.child_process import environment, module_command
-from app.core.configuration import Strict, load, parse
+from app.core.configuration import Strict, load
 from app.core.latest import Latest
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.device.errors import LinkError
-from app.device.links import acus_protocol as acus
-from app.device.links import framing
-from app.device.links.inverse_service import NO_FORCE, PREFIX, Cursor, InverseService
-from app.device.links.link import BoardError, BoardInfo
+from app.device.links import inverse_bridge
+from app.device.links.inverse_service import PREFIX, InverseService
+from app.device.links.link import BoardInfo, Hub, ToldHub
 from app.device.links.port import Port
 from app.device.links.protocols import AcusSpeech
 from app.device.links.serial_link import SerialLink
-from app.device.readiness import UNVERIFIED_FORCE, ForceClearance
-from app.mechanisms import lever
-from app.mechanisms.pantograph import kernels
 from app.mechanisms.pantograph.profile import PantographProfile
 from app.mechanisms.profile import DeviceProfile
-from app.mechanisms.status import OK
 
 ANSWER_WITHIN = 0.02
 """Without a state for so long the service does not answer, and without a command the loop [s]."""
 
-LOOKS_EVERY = 0.5
-"""Time between two looks for a device that is not there [s]."""
-
 BEGINS_WITHIN = 60.0
 """Time for the process to load what it needs [s]."""
-
-TELLS_EVERY = 0.01
-"""Time between two places of the hub that the window is told [s]."""
-
-COMES_BACK = 0.25
-"""Time in which the force grows to its full size after the hub was where no needle can be [s]."""
-
-SHORTEST = 0.03
-"""A hub this near the entry holds no needle [m]."""
-
-BOOT = 1
-"""The device finds its zero by itself: there is one power cycle."""
 
 
 class HaplySettings(Strict):
     """Where the entry stands in the service's frame [mm]: x right, y forward, z up."""
 
     fulcrum_mm: tuple[float, float, float] = (0.0, -120.0, 0.0)
-
-
-class Hub(NamedTuple):
-    """The needle by its hub.
-
-    Attributes:
-        axis: direction, hub to tip.
-        l_out: hub to entry [m].
-        inside: whether a needle can be there; if not, `axis` is the nearest that can.
-    """
-
-    axis: tuple[float, float, float]
-    l_out: float
-    inside: bool
-
-
-class _Played(NamedTuple):
-    """Hub, the pantograph's joints there [rad], its lever [m] and dP3/dq [m/rad]."""
-
-    hub: Hub
-    q: tuple[float, float]
-    l_in: float
-    jacobian: tuple[float, float, float, float]
-
-
-class _Command(NamedTuple):
-    """What the loop wants: its number, and joint torques [N·m] if they count."""
-
-    sequence: int
-    enabled: bool
-    torques: tuple[float, float]
-
-
-class Impersonated:
-    """The pantograph that is played, and where its entry stands in the service's frame.
-
-    Args:
-        profile: of a pantograph.
-        fulcrum: P_I in the service's frame [m].
-
-    Attributes:
-        fulcrum: the same.
-    """
-
-    def __init__(self, profile: PantographProfile, fulcrum: tuple[float, float, float]) -> None:
-        part, self._centre, self.fulcrum = profile.geometry, profile.geometry.fulcrum, fulcrum
-        self._links = part.proximal, part.distal, part.base
-        self._limit = radians(profile.tilt_limit_deg)
-
-    def pose(self, cursor: Cursor) -> _Played | None:
-        """Return the pose with the hub at the cursor; None where nobody could say one."""
-        x, y, z = (entry - there for entry, there in zip(self.fulcrum, cursor[:3], strict=True))
-        l_out = sqrt(x * x + y * y + z * z)
-        across = hypot(x, y)
-        if not l_out > 0.0:
-            return None
-        inside = l_out >= SHORTEST and -z >= l_out * cos(self._limit)
-        if inside:
-            axis = x / l_out, y / l_out, z / l_out
-        elif across > 0.0:
-            size = sin(self._limit) / across
-            axis = size * x, size * y, -cos(self._limit)
-        else:
-            return None
-        fx, fy, fz = self._centre
-        l_in = -fz / axis[2]
-        px, py = fx + l_in * axis[0], fy + l_in * axis[1]
-        status, left, right = kernels.inverse_kernel(px, py, *self._links, 1.0, -1.0)
-        if status != OK:
-            return None
-        status, *rates = kernels.jacobian_kernel(left, right, px, py, *self._links)
-        if status != OK:
-            return None
-        jxl, jxr, jyl, jyr = rates
-        return _Played(Hub(axis, l_out, inside), (left, right), l_in, (jxl, jxr, jyl, jyr))
-
-    def force(self, pose: _Played, torques: tuple[float, float]) -> tuple[float, float, float]:
-        """Return the force at the hub [N] that joint torques [N·m] are, at most what is allowed."""
-        if not pose.hub.inside:
-            return NO_FORCE
-        status, gx, gy = lever.tool_force_kernel(*torques, *pose.jacobian)
-        if status != OK:
-            return NO_FORCE
-        x, y, z = lever.felt_kernel(gx, gy, *pose.hub.axis, pose.l_in, pose.hub.l_out)
-        size = sqrt(x * x + y * y + z * z)
-        if not isfinite(size):
-            return NO_FORCE
-        share = min(1.0, UNVERIFIED_FORCE / size) if size > 0.0 else 0.0
-        return share * x, share * y, share * z
-
-
-class Bridge:
-    """The other end of the loop's wire, in a process of its own: nobody takes its interpreter away.
-
-    Args:
-        service: of the device, not open yet.
-        profile: of the pantograph that is played.
-        fulcrum: P_I in the service's frame [m].
-        wait: longest time [s] for an answer, and for a command.
-        tell: takes a kind, and what there is to say of it.
-    """
-
-    def __init__(
-        self,
-        service: InverseService,
-        profile: PantographProfile,
-        fulcrum: tuple[float, float, float],
-        wait: float,
-        tell: Callable[..., None],
-    ) -> None:
-        self._service, self._profile, self._wait, self._tell = service, profile, wait, tell
-        self._played = Impersonated(profile, fulcrum)
-        self._step = 2.0 * np.pi / profile.encoder.counts_per_turn
-        self._rest, self._silent, self._ended = b"", False, False
-        self._pose: _Played | None = None
-        self._inside_since, self._shown = float(np.inf), 0.0
-        self._frame, self._payload = np.zeros(256, np.uint8), np.zeros(256, np.uint8)
-
-    def run(self, end: socket.socket) -> None:
-        """Look for the device, and answer for it, until the loop's side is closed."""
-        x, y, z = self._played.fulcrum
-        if (pose := self._played.pose(Cursor(x, y, z + 0.1))) is not None:
-            self._played.force(pose, (0.0, 0.0))  # compiled code is loaded before anybody waits
-        while not self._ended:
-            try:
-                self._service.open()
-                self._tell("state", "")
-                while not self._ended:
-                    self._turn(self._commands(end), end)
-            except LinkError as error:
-                self._tell("state", str(error))
-            finally:
-                self._service.close()
-            self._silent, self._pose, self._inside_since = False, None, np.inf
-            again = time.monotonic() + LOOKS_EVERY
-            while not self._ended and time.monotonic() < again:
-                self._commands(end)
-
-    def _commands(self, end: socket.socket) -> list[_Command]:
-        """Wait a while for the loop's commands."""
-        ready, _, _ = select.select([end], [], [], self._wait)
-        data = b""
-        if ready:
-            with suppress(ConnectionError):  # the loop's side was closed with something unread
-                data = end.recv(1 << 16)
-            self._ended = not data
-        *whole, self._rest = (self._rest[-framing.FRAME_BYTES :] + data).split(b"\0")
-        commands = []
-        for piece in whole:
-            payload = self._decoded(piece)
-            if payload[:1] == bytes([acus.HELLO]):
-                bare = self._profile.model_copy(update={"name": ""})
-                self._say(acus.pack_info(bare, self._service.device, BOOT, gauge=False), end)
-            elif payload[:1] == bytes([acus.COMMAND]) and len(payload) == acus.COMMAND_BYTES:
-                _, flags, sequence, left, right = struct.unpack("<BBHff", payload)
-                commands.append(_Command(sequence, bool(flags & acus.ENABLE), (left, right)))
-        return commands
-
-    def _decoded(self, piece: bytes) -> bytes:
-        if not 0 < len(piece) <= framing.FRAME_BYTES:
-            return b""
-        self._frame[: len(piece)] = np.frombuffer(piece, np.uint8)
-        length = framing.decode(self._frame, len(piece), self._payload)
-        return self._payload[: max(length, 0)].tobytes()
-
-    def _turn(self, commands: list[_Command], end: socket.socket) -> None:
-        """Give the newest force, and answer with the place that the service read after it."""
-        cursor = self._service.turn(self._force(commands), self._wait)
-        now = time.monotonic()
-        if cursor is None:
-            if not self._silent:
-                name = self._service.name
-                self._tell(
-                    "event", sentence("{name}: the Haply service does not answer", name=name)
-                )
-            self._silent, self._pose, self._inside_since = True, None, np.inf
-            return
-        pose = self._played.pose(cursor)
-        inside = pose is not None and pose.hub.inside
-        self._inside_since = min(self._inside_since, now) if inside else np.inf
-        self._pose = pose or self._pose  # where none can be said the last one stands, forceless
-        if self._pose is None:
-            return
-        if now - self._shown >= TELLS_EVERY:
-            self._shown = now
-            self._tell("hub", now, self._pose.hub._replace(inside=inside))
-        for command in commands:
-            self._say(self._state(command, cursor, self._pose.q, now), end)
-
-    def _force(self, commands: list[_Command]) -> tuple[float, float, float]:
-        """Return the force of the newest command [N], in the service's frame."""
-        if not commands or self._pose is None:
-            return NO_FORCE
-        newest = commands[-1]
-        if not (newest.enabled and all(map(isfinite, newest.torques))):
-            return NO_FORCE
-        share = min(1.0, max(0.0, time.monotonic() - self._inside_since) / COMES_BACK)
-        x, y, z = self._played.force(self._pose, newest.torques)
-        return share * x, share * y, share * z
-
-    def _state(
-        self, command: _Command, cursor: Cursor, q: tuple[float, float], now: float
-    ) -> bytes:
-        """Return what a board would say: STATE of docs/protocol.md."""
-        flags = acus.GREETED | (acus.HOMED if cursor.calibrated else 0)
-        flags |= acus.ENABLED if command.enabled else 0
-        counts = [
-            round((angle - home) / self._step)
-            for angle, home in zip(q, self._profile.encoder.home_offsets, strict=True)
-        ]
-        error = BoardError.NONE if cursor.powered else BoardError.SUPPLY_OFF
-        micros = int(now * 1e6) & 0xFFFFFFFF
-        return struct.pack("<BBHIiiB", acus.STATE, flags, command.sequence, micros, *counts, error)
-
-    def _say(self, payload: bytes, end: socket.socket) -> None:
-        try:
-            end.send(framing.frame(payload))
-        except BlockingIOError:  # nobody reads: the loop rests
-            pass
-        except OSError:
-            self._ended = True
 
 
 class BridgeProcess:
@@ -320,7 +66,7 @@ class BridgeProcess:
         self.trouble, self._latest, self._tell = "", hub, tell
         with other:
             self._process = subprocess.Popen(
-                [*module_command(__name__), str(other.fileno()), json.dumps(given)],
+                [*module_command(inverse_bridge.__name__), str(other.fileno()), json.dumps(given)],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 pass_fds=(other.fileno(),),
@@ -392,15 +138,11 @@ class CursorPort(Port):
 
 
 class Inverse3Link(SerialLink):
-    """An Inverse3 at a service; see `SerialLink`.
-
-    Attributes:
-        hub: the needle by its hub, with the time of the reading.
-    """
+    """An Inverse3 at a service; see `SerialLink`."""
 
     def __init__(self, port: str, profile: DeviceProfile) -> None:
         super().__init__(port, profile)
-        self.hub: Latest[Hub] = Latest()
+        self.hub: ToldHub = ToldHub(Latest(), self.events)
         self._speech = AcusSpeech(profile)
         self._service = InverseService(port)
         self._bridge: BridgeProcess | None = None
@@ -432,17 +174,6 @@ class Inverse3Link(SerialLink):
         if bridge is not None:
             bridge.close()
 
-    def clearance(self) -> ForceClearance:
-        """Return that the device knows its zero, and that nobody has weighed its forces."""
-        return ForceClearance(
-            1.0,
-            min(UNVERIFIED_FORCE, self.profile.limits.hand_force),
-            sentence(
-                "forces are held to {cap:g} N: those of a Haply Inverse3 were never weighed here",
-                cap=UNVERIFIED_FORCE,
-            ),
-        )
-
     def _make_port(self) -> Port:
         if self._bridge is None:
             place = paths.settings() / "haply.yaml"
@@ -455,36 +186,15 @@ class Inverse3Link(SerialLink):
                 "fulcrum": [MILLIMETRE * one for one in settings.fulcrum_mm],
                 "wait": ANSWER_WITHIN,
             }
-            self._bridge = BridgeProcess(given, self.hub, self._say)
+            self._bridge = BridgeProcess(given, self.hub.latest, self._say)
         return CursorPort(self.port, self._bridge)
 
     def _greeted(self, port: Port) -> BoardInfo:
         info = super()._greeted(port)
-        return replace(info, firmware=self._service.version, protocol="haply inverse3")
+        return replace(info, firmware=self._service.version, protocol="haply inverse3", ready=True)
 
 
 def robot_link(port: str, profile: DeviceProfile) -> SerialLink:
     """Return the link to the robot at a port: `haply:…` is an Inverse3, all else a serial port."""
     kind = Inverse3Link if port.startswith(PREFIX) else SerialLink
     return kind(port, profile)
-
-
-def main() -> None:
-    """Be the process: a descriptor and what is given are its arguments."""
-    descriptor, given = int(sys.argv[1]), json.loads(sys.argv[2])
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends when the loop's side is closed
-    os.set_blocking(sys.stdout.fileno(), False)
-
-    def tell(*message: object) -> None:
-        with suppress(OSError):  # nobody reads: what is newer comes later
-            os.write(sys.stdout.fileno(), json.dumps(message).encode() + b"\n")
-
-    profile = parse(given["profile"], PantographProfile, "the profile for a Haply service")
-    with socket.socket(fileno=descriptor) as end:
-        end.setblocking(False)
-        service = InverseService(given["name"])
-        Bridge(service, profile, tuple(given["fulcrum"]), given["wait"], tell).run(end)
-
-
-if __name__ == "__main__":
-    main()

@@ -4,8 +4,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Final
+from typing import Final, NamedTuple
 
+from app.core.events import EventQueue
+from app.core.latest import Latest
 from app.core.messages import sentence
 from app.core.parameters import Stage
 
@@ -54,6 +56,8 @@ class BoardInfo:
         simulated: whether there is no hardware behind it: the plant is part of the loop.
         emulated: whether another program plays the board, by its own word or because the port is a
             pseudo-terminal, behind which no hardware can be.
+        ready: whether it finds its zero by itself, and its signs are its maker's: there is nothing
+            to commission; its forces were never weighed.
     """
 
     profile: str
@@ -64,6 +68,7 @@ class BoardInfo:
     gauge: bool = False
     simulated: bool = False
     emulated: bool = False
+    ready: bool = False
 
     @property
     def kind(self) -> str:
@@ -71,8 +76,40 @@ class BoardInfo:
         return "simulated" if self.simulated else "emulated" if self.emulated else "real"
 
 
+class Hub(NamedTuple):
+    """The needle by its hub.
+
+    Attributes:
+        axis: direction, hub to tip.
+        l_out: hub to entry [m].
+        inside: whether a needle can be there; if not, `axis` is the nearest that can.
+    """
+
+    axis: tuple[float, float, float]
+    l_out: float
+    inside: bool
+
+
+class ToldHub(NamedTuple):
+    """What a device tells of the needle by itself.
+
+    Attributes:
+        latest: the hub, with the time of the reading.
+        events: what people must know of it.
+    """
+
+    latest: Latest[Hub]
+    events: EventQueue
+
+
 class DeviceLink(ABC):
-    """A robot at the end of a wire, or in memory. `open` does I/O, `close` is idempotent."""
+    """A robot at the end of a wire, or in memory. `open` does I/O, `close` is idempotent.
+
+    Attributes:
+        hub: the needle as the device tells it; None where cameras have to look for it.
+    """
+
+    hub: ToldHub | None = None
 
     @abstractmethod
     def open(self) -> None:

@@ -116,7 +116,7 @@ class PenTracker:
         self._arrived = threading.Condition()
         self._reader = CameraReader(camera, NAME, clock, self._arrived, noise_expected=True)
         self._state = CameraState.WAITING
-        self._meter = TrackerMeter()
+        self._meter = TrackerMeter(looks_for="pen")
         self._picture: PenPicture | None = None
         self._seen: CameraFrame | None = None
         self._thread: threading.Thread | None = None

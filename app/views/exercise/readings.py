@@ -15,6 +15,7 @@ from app.views.exercise.energy_gauge import energy_figures
 from app.views.exercise.felt import felt, guidance_limit
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.status_items import (
+    Eyes,
     LoopFigures,
     depth_item,
     encoder_item,
@@ -26,7 +27,7 @@ from app.views.exercise.status_items import (
     tracker_item,
 )
 from app.views.exercise.tracker_panel import TrackerFigures
-from app.views.kit.text import listing, tr
+from app.views.kit.text import listing, tr, translated
 from app.views.kit.verdict import StatusItem
 
 _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
@@ -77,7 +78,7 @@ def status_items(
     fault = int(device.fault) if device is not None else 0
     items.append(encoder_item(pose.orientation_age, fault_text(fault)))
     items.append(tracker_status(snapshot))
-    items.append(depth_item(str(pose.depth_source), pose.depth_age))
+    items.append(depth_item(str(pose.depth_source), pose.depth_age, eyes_of(snapshot)))
     items.append(heartbeat_item(heartbeat_age))
     record = snapshot.recording
     if record is not None and record.failure:
@@ -107,8 +108,16 @@ def robot_status(snapshot: Snapshot, items: Sequence[StatusItem]) -> StatusItem:
     )
 
 
+def eyes_of(snapshot: Snapshot) -> Eyes:
+    """Return what tells where the needle is."""
+    statistics: TrackerStatistics | None = snapshot.tracker
+    if statistics is None:
+        return Eyes(snapshot.simulated)
+    return Eyes(snapshot.simulated, statistics.told_by, statistics.looks_for == "pen")
+
+
 def tracker_status(snapshot: Snapshot) -> StatusItem:
-    """Health of the cameras."""
+    """Health of the cameras, or of what tells the needle in their place."""
     statistics: TrackerStatistics | None = snapshot.tracker
     if statistics is None:
         return no_cameras_item()
@@ -118,7 +127,7 @@ def tracker_status(snapshot: Snapshot) -> StatusItem:
         statistics.valid_share,
         age,
         problem(statistics, snapshot.simulated),
-        snapshot.simulated,
+        eyes_of(snapshot),
     )
 
 
@@ -139,6 +148,9 @@ def tracker_figures(snapshot: Snapshot) -> TrackerFigures:
         valid_share=statistics.valid_share,
         latency=statistics.latency,
         skew=statistics.skew.median if statistics.skew is not None else None,
+        instead=tr("No camera looks at the needle: {source} tells it", source=told)
+        if (told := statistics.told_by)
+        else "",
     )
 
 
@@ -149,8 +161,9 @@ def problem(statistics: TrackerStatistics, simulated: bool = False) -> str:
     cameras' pictures are late where this computer does not come to draw them.
     """
     troubled = [c for c in statistics.cameras if c.state in _BAD_STATES]
-    if statistics.fault or troubled:
-        return statistics.reason
+    own = statistics.told_by or statistics.looks_for != "marker"
+    if statistics.fault or troubled or (own and statistics.reason):
+        return translated(statistics.reason)
     if statistics.status is FixStatus.OUT_OF_VIEW:
         return tr("marker out of view (both cameras)")
     if statistics.status is FixStatus.NOT_YET_VISIBLE:

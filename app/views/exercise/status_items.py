@@ -89,12 +89,42 @@ def encoder_item(age: float, fault: str = "") -> StatusItem:
     )
 
 
-def tracker_item(
-    rate: float, valid_share: float, age: float, problem: str, simulated: bool = False
-) -> StatusItem:
-    """Return the cameras' health: rate [Hz], valid share 0…1, age of the last fix [s], problem.
+@dataclass(frozen=True, slots=True)
+class Eyes:
+    """What tells where the needle is.
 
-    `simulated`: whether this computer draws what the cameras see.
+    Attributes:
+        simulated: whether this computer draws what cameras see.
+        told_by: who tells it without pictures, by name; empty where cameras look.
+        pen: whether one webcam looks at a pen, in place of two cameras at a marker.
+    """
+
+    simulated: bool = False
+    told_by: str = ""
+    pen: bool = False
+
+    @property
+    def title(self) -> str:
+        """Name it."""
+        if self.told_by:
+            return tr("Needle")
+        return tr("Webcam") if self.pen else tr("Cameras")
+
+
+CAMERAS: Final = Eyes()
+
+
+def tracker_item(
+    rate: float, valid_share: float, age: float, problem: str, eyes: Eyes = CAMERAS
+) -> StatusItem:
+    """Return the health of what tells where the needle is.
+
+    Args:
+        rate: of its fixes [Hz].
+        valid_share: of the usable ones, 0…1.
+        age: of the last fix [s].
+        problem: what keeps it from one; empty if nothing does.
+        eyes: what it is.
     """
     verdict = _by_age(age, TRACKER_FRESH, TRACKER_HOLD)
     if verdict is Verdict.GOOD and (problem or valid_share < SHARE_WARNING):
@@ -105,30 +135,54 @@ def tracker_item(
         share=100 * valid_share,
         age=age_text(age),
     )
-    return StatusItem(
-        verdict,
-        tr("Cameras"),
-        text,
-        tr(
-            "Rate of the tracker, share of pictures in which both cameras saw the marker, age of "
-            "the last such fix. If the marker is out of view, bring it back between the cameras; "
-            "look at the camera pictures for dirt, light or something in the way."
+    plain = _seen_words(verdict, problem, eyes)
+    return StatusItem(verdict, eyes.title, text, _eyes_help(eyes), plain)
+
+
+def _eyes_help(eyes: Eyes) -> str:
+    if eyes.told_by:
+        return tr(
+            "Rate of what {source} says of the needle, share of it that can be used, age of the "
+            "last such word. No camera looks at the needle. If it tells nothing, look at its "
+            "cable, its power and its program.",
+            source=eyes.told_by,
         )
-        if not simulated
-        else tr(
+    if eyes.pen:
+        return tr(
+            "Rate of the tracker, share of pictures in which the webcam saw the pen, age of the "
+            "last such fix. If the pen is out of view, bring it back before the webcam; look at "
+            "the picture for dirt, light or something in the way."
+        )
+    if eyes.simulated:
+        return tr(
             "Rate of the tracker, share of pictures in which both cameras saw the marker, age of "
             "the last such fix. The cameras are simulated: this computer draws what they see. "
             "Where their pictures come late, close other programs."
-        ),
-        plain=_seen_words(verdict, problem, simulated),
+        )
+    return tr(
+        "Rate of the tracker, share of pictures in which both cameras saw the marker, age of "
+        "the last such fix. If the marker is out of view, bring it back between the cameras; "
+        "look at the camera pictures for dirt, light or something in the way."
     )
 
 
-def _seen_words(verdict: Verdict, problem: str, simulated: bool) -> str:
-    """Say in a student's words how the cameras are; `simulated` ones are never to blame."""
+def _seen_words(verdict: Verdict, problem: str, eyes: Eyes) -> str:
+    """Say in a student's words how the needle is seen; `simulated` cameras are never to blame."""
     if problem:
         return problem
-    if simulated and verdict is not Verdict.GOOD:
+    if eyes.told_by:
+        words = {
+            Verdict.GOOD: tr("told by {source}", source=eyes.told_by),
+            Verdict.WARNING: tr("told by {source} now and then", source=eyes.told_by),
+        }
+        return words.get(verdict, tr("not told by {source}", source=eyes.told_by))
+    if eyes.pen:
+        words = {
+            Verdict.GOOD: tr("sees the pen"),
+            Verdict.WARNING: tr("sees the pen now and then"),
+        }
+        return words.get(verdict, tr("does not see the pen"))
+    if eyes.simulated and verdict is not Verdict.GOOD:
         return tr("pictures come late: this computer is busy, close other programs")
     return {
         Verdict.GOOD: tr("see the marker"),
@@ -146,10 +200,14 @@ def no_cameras_item() -> StatusItem:
     )
 
 
-def depth_item(source: str, age: float) -> StatusItem:
-    """Say where the shown depth comes from: one of `session.needle.DepthSource`."""
+def depth_item(source: str, age: float, eyes: Eyes = CAMERAS) -> StatusItem:
+    """Say where the shown depth comes from: one of `session.needle.DepthSource`, by which eyes."""
+    seen = tr("from the webcam") if eyes.pen else tr("from the cameras")
     known = {
-        "tracked": (Verdict.GOOD, tr("from the cameras")),
+        "tracked": (
+            Verdict.GOOD,
+            tr("from {source}", source=eyes.told_by) if eyes.told_by else seen,
+        ),
         "one_camera": (Verdict.WARNING, tr("from one camera")),
         "held": (Verdict.WARNING, tr("held, {age} old", age=age_text(age))),
         "model": (Verdict.BAD, tr("not measured")),
@@ -162,6 +220,13 @@ def depth_item(source: str, age: float) -> StatusItem:
         tr("Depth"),
         text,
         tr(
+            "The depth is told by {source}. Without its word it is held for 200 ms. After that, "
+            "and until ten in a row agree, nobody knows it: the force is held back for the worst "
+            "depth that the needle can have.",
+            source=eyes.told_by or tr("the webcam"),
+        )
+        if eyes.told_by or eyes.pen
+        else tr(
             "The depth is measured by the cameras; by one of them and the needle's line, less "
             "exactly, while the other does not see the marker. Without a fix it is held for 200 "
             "ms. After that, and until ten pictures in a row agree, nobody knows it: the force is "

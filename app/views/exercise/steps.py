@@ -46,7 +46,9 @@ ASIDE: Final = frozenset(
 """What comes before the attempt's own steps, or stops them: no breath is held for it."""
 
 
-def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool = True) -> str:
+def step_words(
+    step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool = True, told_by: str = ""
+) -> str:
     """Say what is to be done next, as an order.
 
     Args:
@@ -54,6 +56,7 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
         by_mouse: whether mouse or keys move the needle.
         tip: whether it is said where the tip goes, as the hand of mouse or keys does, not the hub.
         numbers: whether it is said how far.
+        told_by: who tells the needle where no camera looks at it.
     """
     if step.touch is not None:
         return touch_words(step, step.touch)
@@ -79,6 +82,8 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
     )
     if not numbers and step.kind in (StepKind.TILT, StepKind.DEEPER, StepKind.BACK):
         return _without_numbers(step.kind, sides, inwards, outwards, tip)
+    if told_by and step.kind is StepKind.SEE:
+        return tr("One moment: {source} does not tell how deep the needle is", source=told_by)
     return {
         StepKind.START: tr("Press F5 to start the attempt"),
         StepKind.WITHDRAW: (
@@ -94,7 +99,9 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
         StepKind.LOOK: tr("Steer by the CT: S takes a scan, Enter ends the attempt"),
         StepKind.TILT: tilt,
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
-        StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
+        StepKind.FEEL: tr("Push slowly{how}: nobody tells the depth", how=inwards)
+        if told_by
+        else tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
         StepKind.BONE: tr("The tip stands on bone: do not push, pull back{how}", how=outwards),
         StepKind.DEEPER: tr("Push {mm} mm deeper{how}", mm=amount(mm), how=inwards),
         StepKind.BACK: tr("Pull back {mm} mm{how}", mm=amount(mm), how=outwards),
@@ -409,7 +416,9 @@ class NextStepLine(PlainLabel):
         self.stepped.emit(step, shown.numbers)
         shows = self._run.demonstrates
         tip = not (self._run.held_at_hub or self._moves_hub)
-        words = step_words(step, self._run.interactive or shows, tip, shown.numbers)
+        tracker = self._snapshot.tracker
+        told_by = "" if tracker is None else tracker.told_by
+        words = step_words(step, self._run.interactive or shows, tip, shown.numbers, told_by)
         if shows and step.kind is StepKind.START:
             words = tr("The demonstration begins")
         elif step.kind is StepKind.START and not self._may_start:

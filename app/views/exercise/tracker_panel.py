@@ -39,6 +39,7 @@ class TrackerFigures:
         valid_share: share of valid fixes, 0…1.
         latency: from capture to fix [s].
         skew: capture of the second camera after the first [s]; None where nobody knows.
+        instead: what stands in place of pictures where there are none; empty where there are.
     """
 
     rate: float
@@ -47,6 +48,7 @@ class TrackerFigures:
     valid_share: float = 0.0
     latency: float = 0.0
     skew: float | None = None
+    instead: str = ""
 
 
 class TrackerPanel(QWidget):
@@ -112,8 +114,9 @@ class TrackerPanel(QWidget):
         self._shown = now
         pictures = inspection.pictures if inspection is not None else ()
         self._show_what_there_is(inspection is None or inspection.cameras > 1)
+        instead = self.off or figures.instead
         for i, camera in enumerate(self.cameras):
-            camera.show_picture(pictures[i] if i < len(pictures) else None, self.off)
+            camera.show_picture(pictures[i] if i < len(pictures) else None, instead)
         self.learn.setEnabled(not self.off)
         colour, symbol = figures.item.verdict.colour_and_symbol
         self._verdict.setStyleSheet(f"color: {colour};")

@@ -4,17 +4,16 @@ commissioning.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
-from PySide6.QtGui import QAction, QActionGroup, QKeyEvent, QKeySequence
+from PySide6.QtGui import QAction, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QInputDialog,
-    QMenu,
     QVBoxLayout,
     QWidget,
 )
@@ -29,6 +28,7 @@ from app.views.kit.parts import PlainLabel
 from app.views.kit.roles import TECHNICIANS, Role
 from app.views.kit.text import tr
 from app.views.robot.health_panel import HealthPanel
+from app.views.robot.menu import RobotMenu
 from app.views.robot.settings import RobotSettings
 from app.views.robot.wizard import CommissioningWizard
 from app.views.shell.feature import Context, Feature
@@ -147,9 +147,11 @@ class RobotFeature(Feature):
 
     Signals:
         changed(): another robot, key or mode was chosen.
+        served(): services of this computer answer for other robots than before.
     """
 
     changed = Signal()
+    served = Signal()
     topic: ClassVar[str] = "robot"
     place: ClassVar[int] = 70
     roles: ClassVar[frozenset[Role]] = TECHNICIANS
@@ -159,7 +161,8 @@ class RobotFeature(Feature):
         self._equipment, self._conductor = context.equipment, context.conductor
         self._runs, self._attempt = context.runs, context.conductor.views
         self._window = context.shell.dialog_parent
-        self._opening = False
+        self._opening = self._asking = False
+        self._served: tuple[RobotPort, ...] = ()
         self.wizard: CommissioningWizard | None = None
         self.panel = HealthPanel()
         context.shell.add_panel(self.panel, tr("Robot"), scrolls=False)
@@ -196,13 +199,35 @@ class RobotFeature(Feature):
 
         The system lists no pseudo-terminals, and a port whose robot is unplugged no more.
         """
-        found = self.context.services.robots()
+        found = (*self.context.services.robots(), *self._served)
         chosen = self.port
         if chosen and chosen not in [robot.port for robot in found]:
-            there = Path(chosen).exists()
+            there = Path(chosen).exists() or not Path(chosen).is_absolute()  # is no name of a file
             title = chosen if there else tr("{port} – not plugged in", port=chosen)
             found = (*found, RobotPort(chosen, title))
         return found
+
+    def look_for_served(self) -> None:
+        """Ask, beside the window, for robots that a service answers for: `served` says so.
+
+        Not while one is used: the service is left alone then.
+        """
+        used = self.port and not Path(self.port).is_absolute()
+        if self._asking or used:
+            return
+        self._asking, services = True, self.context.services
+        run_in_background(
+            self,
+            lambda _: services.served_robots(),
+            self._take_served,
+            lambda _: self._take_served(()),
+        )
+
+    def _take_served(self, found: tuple[RobotPort, ...]) -> None:
+        self._asking = False
+        if found != self._served:
+            self._served = found
+            self.served.emit()
 
     def choose(self, port: str) -> None:
         """Take another robot; empty for the simulated one. Refused while an attempt runs."""
@@ -358,74 +383,3 @@ class RobotFeature(Feature):
 
     def _refused(self) -> bool:
         return self._equipment.refused(tr("the robot"))
-
-
-class RobotMenu:
-    """Fills a menu with what the feature does."""
-
-    def __init__(self, menu: QMenu, robot: RobotFeature) -> None:
-        self._robot = robot
-        self.robots = menu.addMenu(tr("Use"))
-        self.robots.aboutToShow.connect(self._fill_robots)
-        self._add(menu, tr("Robot's health"), robot.show_health, "F8")
-        self._add(menu, tr("Commissioning…"), robot.commission)
-        menu.addSeparator()
-        self.holding = menu.addAction(tr("Arm the simulated robot by a held key too"))
-        self.holding.setCheckable(True)
-        self.holding.triggered.connect(robot.set_practise_holding)
-        self.key = self._add(menu, "", robot.ask_key)
-        self.gauge = self._gauge(menu.addMenu(tr("Energy gauge")))
-        robot.changed.connect(self.refresh)
-        self.refresh()
-
-    def refresh(self) -> None:
-        """Show what is chosen."""
-        settings = self._robot.settings
-        self.holding.setChecked(settings.practise_holding)
-        self.key.setText(tr("Key for the forces: {key}…", key=key_name(settings.enable_key)))
-        for mode, action in self.gauge.items():
-            action.setChecked(mode is settings.gauge)
-
-    def _fill_robots(self) -> None:
-        self.robots.clear()
-        chosen = self._robot.port
-        choices = [("", tr("Simulated robot"))]
-        choices += [(robot.port, robot.title) for robot in self._robot.ports()]
-        for port, title in choices:
-            action = self.robots.addAction(title)
-            action.setCheckable(True)
-            action.setChecked(port == chosen and not self._robot.pen)
-            action.triggered.connect(lambda _=False, port=port: self._robot.choose(port))
-        if len(choices) == 1:
-            self.robots.addAction(tr("no other robot is plugged in")).setEnabled(False)
-        self.robots.addSeparator()
-        self._add(self.robots, tr("Other port…"), self._robot.ask_port)
-        if not self._robot.offers_pen:
-            return
-        pen = self._add(self.robots, tr("No robot: pen and webcam…"), self._robot.ask_pen)
-        pen.setCheckable(True)
-        pen.setChecked(bool(self._robot.pen))
-
-    def _gauge(self, menu: QMenu) -> dict[GaugeMode, QAction]:
-        group = QActionGroup(menu)
-        titles = {
-            GaugeMode.AUTO: tr("With a real robot, and when the guard acts"),
-            GaugeMode.SHOWN: tr("Always"),
-            GaugeMode.HIDDEN: tr("Never"),
-        }
-        actions = {}
-        for mode, title in titles.items():
-            action = menu.addAction(title)
-            action.setCheckable(True)
-            action.triggered.connect(lambda _=False, mode=mode: self._robot.set_gauge(mode))
-            group.addAction(action)
-            actions[mode] = action
-        return actions
-
-    @staticmethod
-    def _add(menu: QMenu, text: str, command: Callable[[], object], key: str = "") -> QAction:
-        action = menu.addAction(text)
-        if key:
-            action.setShortcut(key)
-        action.triggered.connect(lambda _=False: command())
-        return action

@@ -194,6 +194,10 @@ class Services(Protocol):
         """Ports at which a robot may be plugged in now; quick, opens none."""
         ...
 
+    def served_robots(self) -> tuple[RobotPort, ...]:
+        """Robots that a service of this computer answers for; called beside the window."""
+        ...
+
     def open_robot(self, port: str, profile: DeviceProfile, progress: Progress) -> Bench:
         """Open a robot for commissioning; called beside the window, may take seconds.
 
