@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.arm.mechanics import forward, load_arm, published_arm
-from app.arm.mechanics.urdf import write_arm_urdf
+from app.arm.mechanics.published import write_arm_urdf
 from app.commands import build
 from app.core.errors import ConfigurationError
 from app.core.rotation import rotation_exp

@@ -17,7 +17,7 @@ from app.device.control import Loop, machine_stages
 from app.device.errors import BoardVersionError, LinkError
 from app.device.links import inverse3, inverse_service
 from app.device.links.inverse3 import ANSWER_WITHIN, Inverse3Link, robot_link
-from app.device.links.inverse_pose import Impersonated
+from app.device.links.inverse_bridge import Impersonated
 from app.device.links.inverse_service import (
     NO_FORCE,
     Cursor,

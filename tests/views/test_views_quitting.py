@@ -9,7 +9,7 @@ from window_rig import plan, state
 from app.session.index import Index
 from app.session.interrupted import interrupted
 from app.session.machine import State
-from app.views.kit.question import ask
+from app.views.kit.parts import ask
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from app.tracking.fix import FixStatus
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.controller import LIGHT_MS, PERIOD_MS, SHOWN_S
 from app.views.exercise.readings import problem
-from app.views.exercise.status_items import Eyes, tracker_item
+from app.views.exercise.status_items import TipTeller, tracker_item
 from app.views.exercise.steps import step_words
 from app.views.kit.verdict import StatusItem, Verdict
 
@@ -249,7 +249,9 @@ def test_whoever_waits_for_a_busy_computer_reads_so_and_what_to_do(pause):
 
 
 def test_the_light_and_the_rail_say_what_to_do_about_a_busy_computer(qt):
-    assert "close other programs" in tracker_item(30.0, 0.2, 0.1, "", Eyes(simulated=True)).plain
+    assert (
+        "close other programs" in tracker_item(30.0, 0.2, 0.1, "", TipTeller(simulated=True)).plain
+    )
     rail = AttemptRail()
     for has_scene in (True, False):
         rail.set_busy(True, has_scene)

@@ -23,7 +23,7 @@ def urdf(
 ) -> Answer:
     """Write an arm as URDF, where it stands and with what it holds."""
     from app.arm.mechanics import load_arm, published_arm
-    from app.arm.mechanics.urdf import write_arm_urdf
+    from app.arm.mechanics.published import write_arm_urdf
     from app.exchange.text_export import write_text
 
     profile = load_arm(arm)

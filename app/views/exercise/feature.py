@@ -18,7 +18,7 @@ from app.planning.patient import Patient
 from app.views.exercise.beginning import Beginning
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
-from app.views.kit.question import ask
+from app.views.kit.parts import ask
 from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import declared, listing, tr, translated
 from app.views.reading.lock_words import CAMERA_ROLES

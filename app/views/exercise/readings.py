@@ -15,8 +15,8 @@ from app.views.exercise.energy_gauge import energy_figures
 from app.views.exercise.felt import felt, guidance_limit
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.status_items import (
-    Eyes,
     LoopFigures,
+    TipTeller,
     depth_item,
     encoder_item,
     heartbeat_item,
@@ -78,7 +78,7 @@ def status_items(
     fault = int(device.fault) if device is not None else 0
     items.append(encoder_item(pose.orientation_age, fault_text(fault)))
     items.append(tracker_status(snapshot))
-    items.append(depth_item(str(pose.depth_source), pose.depth_age, eyes_of(snapshot)))
+    items.append(depth_item(str(pose.depth_source), pose.depth_age, teller_of(snapshot)))
     items.append(heartbeat_item(heartbeat_age))
     record = snapshot.recording
     if record is not None and record.failure:
@@ -108,12 +108,12 @@ def robot_status(snapshot: Snapshot, items: Sequence[StatusItem]) -> StatusItem:
     )
 
 
-def eyes_of(snapshot: Snapshot) -> Eyes:
+def teller_of(snapshot: Snapshot) -> TipTeller:
     """Return what tells where the needle is."""
     statistics: TrackerStatistics | None = snapshot.tracker
     if statistics is None:
-        return Eyes(snapshot.simulated)
-    return Eyes(snapshot.simulated, statistics.told_by, statistics.looks_for == "pen")
+        return TipTeller(snapshot.simulated)
+    return TipTeller(snapshot.simulated, statistics.told_by, statistics.looks_for == "pen")
 
 
 def tracker_status(snapshot: Snapshot) -> StatusItem:
@@ -127,7 +127,7 @@ def tracker_status(snapshot: Snapshot) -> StatusItem:
         statistics.valid_share,
         age,
         problem(statistics, snapshot.simulated),
-        eyes_of(snapshot),
+        teller_of(snapshot),
     )
 
 

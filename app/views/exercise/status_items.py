@@ -90,7 +90,7 @@ def encoder_item(age: float, fault: str = "") -> StatusItem:
 
 
 @dataclass(frozen=True, slots=True)
-class Eyes:
+class TipTeller:
     """What tells where the needle is.
 
     Attributes:
@@ -111,11 +111,11 @@ class Eyes:
         return tr("Webcam") if self.pen else tr("Cameras")
 
 
-CAMERAS: Final = Eyes()
+CAMERAS: Final = TipTeller()
 
 
 def tracker_item(
-    rate: float, valid_share: float, age: float, problem: str, eyes: Eyes = CAMERAS
+    rate: float, valid_share: float, age: float, problem: str, teller: TipTeller = CAMERAS
 ) -> StatusItem:
     """Return the health of what tells where the needle is.
 
@@ -124,7 +124,7 @@ def tracker_item(
         valid_share: of the usable ones, 0…1.
         age: of the last fix [s].
         problem: what keeps it from one; empty if nothing does.
-        eyes: what it is.
+        teller: what it is.
     """
     verdict = _by_age(age, TRACKER_FRESH, TRACKER_HOLD)
     if verdict is Verdict.GOOD and (problem or valid_share < SHARE_WARNING):
@@ -135,25 +135,25 @@ def tracker_item(
         share=100 * valid_share,
         age=age_text(age),
     )
-    plain = _seen_words(verdict, problem, eyes)
-    return StatusItem(verdict, eyes.title, text, _eyes_help(eyes), plain)
+    plain = _seen_words(verdict, problem, teller)
+    return StatusItem(verdict, teller.title, text, _teller_help(teller), plain)
 
 
-def _eyes_help(eyes: Eyes) -> str:
-    if eyes.told_by:
+def _teller_help(teller: TipTeller) -> str:
+    if teller.told_by:
         return tr(
             "Rate of what {source} says of the needle, share of it that can be used, age of the "
             "last such word. No camera looks at the needle. If it tells nothing, look at its "
             "cable, its power and its program.",
-            source=eyes.told_by,
+            source=teller.told_by,
         )
-    if eyes.pen:
+    if teller.pen:
         return tr(
             "Rate of the tracker, share of pictures in which the webcam saw the pen, age of the "
             "last such fix. If the pen is out of view, bring it back before the webcam; look at "
             "the picture for dirt, light or something in the way."
         )
-    if eyes.simulated:
+    if teller.simulated:
         return tr(
             "Rate of the tracker, share of pictures in which both cameras saw the marker, age of "
             "the last such fix. The cameras are simulated: this computer draws what they see. "
@@ -166,23 +166,23 @@ def _eyes_help(eyes: Eyes) -> str:
     )
 
 
-def _seen_words(verdict: Verdict, problem: str, eyes: Eyes) -> str:
+def _seen_words(verdict: Verdict, problem: str, teller: TipTeller) -> str:
     """Say in a student's words how the needle is seen; `simulated` cameras are never to blame."""
     if problem:
         return problem
-    if eyes.told_by:
+    if teller.told_by:
         words = {
-            Verdict.GOOD: tr("told by {source}", source=eyes.told_by),
-            Verdict.WARNING: tr("told by {source} now and then", source=eyes.told_by),
+            Verdict.GOOD: tr("told by {source}", source=teller.told_by),
+            Verdict.WARNING: tr("told by {source} now and then", source=teller.told_by),
         }
-        return words.get(verdict, tr("not told by {source}", source=eyes.told_by))
-    if eyes.pen:
+        return words.get(verdict, tr("not told by {source}", source=teller.told_by))
+    if teller.pen:
         words = {
             Verdict.GOOD: tr("sees the pen"),
             Verdict.WARNING: tr("sees the pen now and then"),
         }
         return words.get(verdict, tr("does not see the pen"))
-    if eyes.simulated and verdict is not Verdict.GOOD:
+    if teller.simulated and verdict is not Verdict.GOOD:
         return tr("pictures come late: this computer is busy, close other programs")
     return {
         Verdict.GOOD: tr("see the marker"),
@@ -200,13 +200,13 @@ def no_cameras_item() -> StatusItem:
     )
 
 
-def depth_item(source: str, age: float, eyes: Eyes = CAMERAS) -> StatusItem:
-    """Say where the shown depth comes from: one of `session.needle.DepthSource`, by which eyes."""
-    seen = tr("from the webcam") if eyes.pen else tr("from the cameras")
+def depth_item(source: str, age: float, teller: TipTeller = CAMERAS) -> StatusItem:
+    """Say where the shown depth comes from: one of `session.needle.DepthSource`, by whom."""
+    seen = tr("from the webcam") if teller.pen else tr("from the cameras")
     known = {
         "tracked": (
             Verdict.GOOD,
-            tr("from {source}", source=eyes.told_by) if eyes.told_by else seen,
+            tr("from {source}", source=teller.told_by) if teller.told_by else seen,
         ),
         "one_camera": (Verdict.WARNING, tr("from one camera")),
         "held": (Verdict.WARNING, tr("held, {age} old", age=age_text(age))),
@@ -223,9 +223,9 @@ def depth_item(source: str, age: float, eyes: Eyes = CAMERAS) -> StatusItem:
             "The depth is told by {source}. Without its word it is held for 200 ms. After that, "
             "and until ten in a row agree, nobody knows it: the force is held back for the worst "
             "depth that the needle can have.",
-            source=eyes.told_by or tr("the webcam"),
+            source=teller.told_by or tr("the webcam"),
         )
-        if eyes.told_by or eyes.pen
+        if teller.told_by or teller.pen
         else tr(
             "The depth is measured by the cameras; by one of them and the needle's line, less "
             "exactly, while the other does not see the marker. Without a fix it is held for 200 "

@@ -124,6 +124,38 @@ def button(text: str, role: str = "", kind: type[QPushButton] = QPushButton) -> 
     return made
 
 
+def ask(
+    parent: QWidget | None,
+    title: str,
+    words: str,
+    more: str,
+    answers: Sequence[str],
+    *,
+    default: int = 0,
+    escape: int,
+) -> int:
+    """Ask by answers that name what they do; return the number of the one given.
+
+    Args:
+        parent: over which it opens.
+        title: of the box.
+        words: the question, as it stands.
+        more: what follows from the answers.
+        answers: words of the buttons.
+        default: number of the answer that Enter gives.
+        escape: number of the one that Escape, or closing the box, gives.
+    """
+    box = message_box(parent, title, words, more)
+    box.setIcon(QMessageBox.Icon.Question)
+    role = QMessageBox.ButtonRole.ActionRole
+    buttons = [box.addButton(name, role) for name in answers]
+    box.setDefaultButton(buttons[default])
+    box.setEscapeButton(buttons[escape])
+    box.exec()
+    clicked = box.clickedButton()
+    return buttons.index(clicked) if clicked in buttons else escape
+
+
 def text_room(button: QPushButton) -> int:
     """Return the width that a button has for its text [px]."""
     option = QStyleOptionButton()
