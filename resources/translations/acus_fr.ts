@@ -13840,11 +13840,11 @@ hors du plan {c:+.1f}° (trajectoire {d:+.1f}°)</translation>
         </message>
         <message>
             <source>moves the tip</source>
-            <translation type="unfinished">déplace la pointe</translation>
+            <translation type="unfinished">mène la pointe</translation>
         </message>
         <message>
             <source>moves the hub</source>
-            <translation type="unfinished">déplace l’embase</translation>
+            <translation type="unfinished">mène l’embase</translation>
         </message>
         <message>
             <source>The hand moves</source>

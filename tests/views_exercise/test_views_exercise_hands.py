@@ -700,8 +700,3 @@ def test_no_choice_is_cut_beside_views_on_a_small_screen(qt, hub):
     QApplication.processEvents()
     assert not choices._title.isHidden()
     assert cut_texts(window) == []
-    choices.set_wordy(False)
-    choices.resize(260, 140)  # beside large letters or French ones: below each other
-    QApplication.processEvents()
-    assert cut_texts(window) == []
-    assert choices.box.y() < choices.gain.y() < choices.sense.y()

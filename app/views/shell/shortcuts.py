@@ -26,6 +26,8 @@ from app.views.kit.text import disclaimer, keys_text, tr
 from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 
 _AROUND_PX = 40
+_WIDEST_PX = 1280
+"""Two columns up to this width, the smallest screen's; longer words than English have one."""
 _LEAST_PX = 300
 
 ROLE_KEY: Final = "Ctrl+Alt+R"
@@ -158,7 +160,7 @@ class ShortcutSheet(QDialog):
         layout.addWidget(disclaimer_label(self))
         layout.addWidget(buttons)
         around, most = QSize(_AROUND_PX, 4 * _AROUND_PX), self.screen().availableSize() * 0.95
-        if (sheet.sizeHint() + around).width() > most.width():  # longer words than English
+        if sheet.sizeHint().width() > max(most.width() - _AROUND_PX, _WIDEST_PX):
             columns.setDirection(QBoxLayout.Direction.TopToBottom)
         self.resize((sheet.sizeHint() + around).boundedTo(most))
 

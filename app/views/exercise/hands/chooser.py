@@ -222,6 +222,8 @@ class HandChooser(QWidget):
 
     def set_compact(self, compact: bool) -> None:
         """Leave only the two choices, one below the other; their help says how the hand moves."""
+        ways = QBoxLayout.Direction
+        self._row.setDirection(ways.TopToBottom if compact else ways.LeftToRight)
         self._compact = compact
         self._share_row()
         self._show_help()
@@ -232,20 +234,14 @@ class HandChooser(QWidget):
         self._share_row()
 
     def _share_row(self) -> None:
-        """Give each choice the room that its words need: the title goes, then they are stacked."""
+        """Give each choice the room that its words need, and leave the title out before they do."""
         wanted = [box.sizeHint().width() for box in self._boxes]
         for place, width in enumerate(wanted, 1):
             self._row.setStretch(place, width)
         shown = [w for w, box in zip(wanted, self._boxes, strict=True) if not box.isHidden()]
         gaps = len(shown) * max(0, self._row.spacing())
-        stacked = self._compact or sum(shown) + gaps > self.width()
-        ways = QBoxLayout.Direction
-        way = ways.TopToBottom if stacked else ways.LeftToRight
-        if way is not self._row.direction():
-            self._row.setDirection(way)
-            self.updateGeometry()
         needed = sum(shown) + gaps + self._title.sizeHint().width()
-        self._title.setVisible(not stacked and needed <= self.width())
+        self._title.setVisible(not self._compact and needed <= self.width())
 
     def set_wordy(self, wordy: bool) -> None:
         """Say how the hand moves, or only what the user must know now."""
