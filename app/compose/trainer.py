@@ -1,7 +1,4 @@
-"""Builds a running trainer from a configuration: the only file that names concrete drivers.
-
-A recorded attempt's trainer is built again from what its record has attached, to be recomputed.
-"""
+"""Builds a running trainer from a configuration: the only file that names concrete drivers."""
 
 from __future__ import annotations
 

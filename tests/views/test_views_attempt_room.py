@@ -11,14 +11,14 @@ import pytest
 from attempt_windows import begun, judged
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QScrollArea
 
 from app.core import state_vector as sv
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.session.machine import State
 from app.session.shown_views import Shown
-from app.views.exercise.attempt_rail import AttemptRail, OrderBlock, RailFigures
+from app.views.exercise.attempt_rail import AttemptRail, RailFigures
 from app.views.exercise.breath_strip import BreathStrip
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.scan_wall import ScanPicture, ScanWall
@@ -432,22 +432,6 @@ def test_with_all_panels_no_figure_no_order_and_no_stage_stands_twice(window, pa
     settle(timeout=0.1)
     back = [panel.readouts._values[key] for key in RailFigures.SHOWN]
     assert all(part.isVisibleTo(panel) for part in (panel.steps, panel.readouts.force, *back))
-
-
-def test_an_order_too_long_for_its_place_makes_it_higher_once_and_lower_again(application):
-    rail = QWidget()  # a window of its own is resized later, a part of one at once
-    block = OrderBlock(rail)
-    rail.show()
-    block.resize(120, 60)
-    block.say("Wait")
-    least = block.height()
-    block.say("Turn the handle to the left until the mark is up, then push on by ten millimetres")
-    assert block.height() >= block.heightForWidth(block.width()) > least
-    block.resize(600, block.height())
-    assert block.height() == least
-    block.say("Wait")
-    assert block.height() == least
-    rail.close()
 
 
 def test_the_rail_is_as_wide_inside_with_a_scroll_bar_as_without(application):

@@ -116,18 +116,17 @@ class OrderBlock(PlainLabel):
         self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Take letters that fit the new width; the height is its own doing."""
+        """Take letters that fit the new width."""
         super().resizeEvent(event)
-        if event.size().width() != event.oldSize().width():
-            self.fit()
+        self.fit()
 
     def fit(self) -> None:
         """Take the largest letters in which all of it can be read; if none, more height."""
         high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
-        least = (high + 2 * GRID) // GRID * GRID
+        self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
         room = self.width() - 2 * GRID - _INDENT
         sizes = (theme.TITLE_PX, theme.FONT_PX, theme.SMALL_PX)
-        fitting = (px for px in sizes if _fits(self.text(), px, room, least - 2 * GRID))
+        fitting = (px for px in sizes if _fits(self.text(), px, room, self.height() - 2 * GRID))
         pixels = next(fitting, theme.SMALL_PX)
         ground = theme.now(theme.GOOD if self._good else theme.ACCENT)
         style = (
@@ -137,8 +136,7 @@ class OrderBlock(PlainLabel):
         if style != self.styleSheet():
             self.setStyleSheet(style)
         self.ensurePolished()
-        self.setMinimumHeight(0)  # Qt makes no label less high for a width than its least
-        tall = max(least, self.heightForWidth(self.width()))
+        tall = max(self.height(), self.heightForWidth(self.width()))
         self.setFixedHeight(-(-tall // GRID) * GRID)
 
 
