@@ -24199,8 +24199,8 @@ haply: ist ein Haply Inverse3</translation>
             <translation type="unfinished">Leistung und Zeit des Generators</translation>
         </message>
         <message>
-            <source>{power} W, {minutes} min: {long} × {short} mm</source>
-            <translation type="unfinished">{power} W, {minutes} min: {long} × {short} mm</translation>
+            <source>{power} W, {minutes} min: {long}×{short} mm</source>
+            <translation type="unfinished">{power} W, {minutes} min: {long}×{short} mm</translation>
         </message>
         <message>
             <source>Held: {tool}</source>

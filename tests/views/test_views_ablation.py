@@ -15,6 +15,7 @@ from app.views.debrief.margin_map import AROUND, UP, AblationReview, fields, tab
 from app.views.exercise.ablation_panel import AblationPanel, results
 from app.views.slices.zones import BARE, ENOUGH, LITTLE, cut, mark_of
 from tests.ablation_rig import begin, liver, needle, part, placed
+from tests.careless.texts import cut_texts
 
 OFFS = ((0.004, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.006))
 
@@ -96,7 +97,10 @@ def test_the_panel_leads_through_electrodes_and_generator_by_key_and_mouse(appli
     panel.setting.setCurrentIndex(3)
     panel.next.click()
     assert asked.pop() == (Step.ABLATE, 3, 0.0)
-    assert panel.setting.currentText() == "30 W, 20 min: 38 × 24 mm"
+    assert panel.setting.currentText() == "30 W, 20 min: 38×24 mm"
+    panel.resize(204, 600)  # what the rail has for it at 1366 px
+    panel.show()
+    assert [words for words in cut_texts(panel) if "QComboBox" in words] == []
     panel.show_ablation(state, False, inside=False)
     assert not panel.next.isEnabled()
     panel.show_ablation(None, True)

@@ -16,6 +16,7 @@ from app.views.exercise.step_panel import (
     shared_results,
     shared_words,
 )
+from app.views.kit import theme
 from app.views.kit.text import literal, number, tr, translated
 
 
@@ -56,11 +57,12 @@ class AblationPanel(StepPanel):
 
     def _offer(self, ablation: AblationState) -> None:
         """Offer what the generator's table has, the planned row at first."""
+        self.setting.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")  # whole in a narrow rail
         with QSignalBlocker(self.setting):
             self.setting.clear()
             for row in ablation.table.rows:
                 words = tr(
-                    "{power} W, {minutes} min: {long} × {short} mm",
+                    "{power} W, {minutes} min: {long}×{short} mm",
                     power=number(row.power_w, "g"),
                     minutes=number(row.minutes, "g"),
                     long=number(row.long_mm, "g"),
