@@ -388,7 +388,7 @@ def test_a_view_in_which_nothing_changes_or_that_nobody_sees_is_not_looked_at(vi
 
 
 @pytest.mark.long("journey")
-def test_a_view_that_stands_still_is_drawn_only_for_who_turns_it_and_goes_on_afterwards(
+def test_a_view_that_stands_still_is_drawn_only_for_who_turns_or_changes_it_and_goes_on_afterwards(
     view, settle
 ):
     shots, request = [], view._feed._renderer.request
@@ -409,6 +409,9 @@ def test_a_view_that_stands_still_is_drawn_only_for_who_turns_it_and_goes_on_aft
     assert settle(lambda: shots)
     assert settle(lambda: not view._feed._timer.isActive())
     assert all(shot.moving for shot in shots)
+    shots.clear()
+    view.set_display(Display(light=not view.display.light))
+    assert settle(lambda: shots)
     view.set_still(False)
     assert settle(lambda: view.is_settled)
     assert not shots[-1].moving

@@ -212,7 +212,7 @@ class SceneFeed(QObject):
         self.refresh()
 
     def set_still(self, still: bool) -> None:
-        """Leave the picture as it is, unless somebody turns it, or draw what changes again."""
+        """Leave the picture as it is, unless the user turns or changes it, or draw all again."""
         self._still = still
         self.refresh()
 
@@ -223,9 +223,14 @@ class SceneFeed(QObject):
             return True
         return self._fine and not self._pending and self._renderer.idle
 
-    def change(self, kind: str, change: Change) -> None:
-        """Change what is seen; the newest of a kind wins."""
+    def change(self, kind: str, change: Change, asked: bool = False) -> None:
+        """Change what is seen; the newest of a kind wins.
+
+        `asked`: by the user, so that it is drawn where the picture stands still too.
+        """
         self._renderer.change(kind, change)
+        if asked and self._still:
+            self._turned_at = monotonic()
         self.refresh()
 
     def turn(self, orbit: Orbit) -> None:

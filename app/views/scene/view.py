@@ -226,7 +226,7 @@ class SceneView(QWidget):
         """Show more or less of the patient, or on another background."""
         if display != self.display:
             self.display = display
-            self._feed.change("display", lambda stage: stage.set_display(display))
+            self._feed.change("display", lambda stage: stage.set_display(display), asked=True)
             self.update()
             self.display_changed.emit()
 
