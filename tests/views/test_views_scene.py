@@ -565,6 +565,15 @@ def test_the_background_is_light_and_marks_are_dark_on_it(stage):
     assert stage.render(orbit, SIZE, False)[2, 2, :3].max() == 0
 
 
+@pytest.mark.parametrize("light", [False, True])
+def test_another_needle_stands_out_from_either_background(stage, light):
+    stage.set_ghost(NeedleOverlay([0, 0, 50], [0, 0, 0]))
+    stage.set_display(Display(light=light))
+    orbit = Orbit.from_side("A", np.zeros(3), 60.0)
+    picture = stage.render(orbit, SIZE, False)[:, :, :3].astype(int)
+    assert np.abs(picture - picture[2, 2]).max() > 120
+
+
 @pytest.mark.promise("docs/reading.md: needle, path and target are never hidden")
 def test_in_an_x_ray_the_needle_is_never_hidden_and_three_pixels_wide(stage, surfaces):
     size = (420, 330)  # the 3D view of a window of 1366 × 768

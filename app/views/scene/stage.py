@@ -50,6 +50,7 @@ NEEDLE_RADIUS_MM, PATH_RADIUS_MM, POINT_RADIUS_MM, BEAD_RADIUS_MM = 1.2, 0.7, 3.
 NEEDLE_PX, PATH_PX, POINT_PX, BEAD_PX, RING_PX = 4.0, 2.0, 9.0, 4.5, 1.6
 """Widths that needle, path and points never fall below on the screen, however small the zoom."""
 
+GHOST = Mark(theme.TEXT)  # white is a ground to the themes, and turns dark on a dark one
 GHOST_RADIUS_MM, GHOST_PX = 0.9, 3.0
 DASH_MM, DASHES = 5.0, 14
 """The ghost of another needle is dashed, that many times from its tip on."""
@@ -338,7 +339,7 @@ class Stage:
         """Show another needle beside the own one, dashed; None shows none."""
         dashes = [] if ghost is None else dashed(ghost.points_mm, DASH_MM, DASHES)
         while len(self._ghost) < len(dashes):
-            rod = Rod(self._renderer, theme.GHOST, GHOST_RADIUS_MM, GHOST_PX, self._over)
+            rod = Rod(self._renderer, GHOST, GHOST_RADIUS_MM, GHOST_PX, self._over)
             rod.show(self._display)
             self._ghost.append(rod)
         for number, rod in enumerate(self._ghost):
