@@ -18,6 +18,7 @@ from app.core.errors import AcusError
 from app.imaging.skin_grid import SkinGrid
 from app.planning.ablation.zone import Zone
 from app.session.ablation_shown import AblationShown
+from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.theme import Mark
 from app.views.scene.words import Entry
@@ -31,8 +32,8 @@ GRID: Final = "grid"
 ABLATION: Final = "ablation"
 """Parts of an exercise that have something to show."""
 
-ELECTRODE: Final = Mark("#fdfdfd")
-"""As white as that of the slices, but none of the colours that a theme exchanges for another."""
+ELECTRODE: Final = Mark(theme.TEXT)
+"""As white as that of the slices, and dark on a light background."""
 
 OUTLINE: Final = Mark(ZONE, width=1.6)
 
